@@ -1,0 +1,262 @@
+//! The aggregate object: a technique over children.
+
+mod barrel;
+mod leaf;
+mod members;
+mod single;
+
+use glam::Vec3A;
+
+use crate::aabb::Aabb;
+use crate::children::{Children, Names};
+use crate::cost::{Cost, CostModel};
+use crate::dispatch;
+use crate::hit::Hit;
+use crate::object::{Aggregate, DynObject, Object};
+use crate::ray::{Ray, Source};
+use crate::scratch::Scratch;
+use crate::simd::Level;
+use crate::surface::Surface;
+use crate::technique::{Expected, Leaves, Technique};
+
+use self::members::Members;
+
+/// An aggregate: technique `T` over children `C`. Every technique becomes an
+/// object through this one type.
+#[derive(Debug)]
+pub struct Accel<T: Technique, C: Children> {
+    params: T::Params,
+    /// None while there is nothing to put in order.
+    index: Option<T>,
+    /// Leaves of children that are not packed: a length, then that many numbers of members,
+    /// at each place that a leaf is called by.
+    table: Vec<u32>,
+    /// The children in the index, and what each is called there.
+    members: Members<C>,
+    /// What the technique expects; of packed children only the sum, as the first.
+    expected: Expected,
+    /// Children no box can hold, tested for every ray.
+    unbounded: Vec<u32>,
+    /// Children from here on were added after the last build.
+    built: u32,
+    bounds: Aabb,
+}
+
+impl<T: Technique, C: Children> Accel<T, C> {
+    /// Puts `children` in order. An empty collection is fine: nothing is hit.
+    #[must_use]
+    pub fn new(params: T::Params, children: C) -> Self {
+        let mut accel = Self {
+            params,
+            index: None,
+            table: Vec::new(),
+            members: Members { children, names: Names::default() },
+            expected: Expected::default(),
+            unbounded: Vec::new(),
+            built: 0,
+            bounds: Aabb::EMPTY,
+        };
+        accel.rebuild();
+        accel
+    }
+
+    /// The technique, if there is anything to put in order; for reports and tests.
+    pub fn index(&self) -> Option<&T> {
+        self.index.as_ref()
+    }
+
+    /// The collection.
+    pub fn children(&self) -> &C {
+        &self.members.children
+    }
+
+    /// What the technique expects of a random ray.
+    pub fn expected(&self) -> &Expected {
+        &self.expected
+    }
+
+    fn rebuild(&mut self) {
+        let children = &self.members.children;
+        self.built = children.count();
+        self.bounds =
+            (0..self.built).fold(Aabb::EMPTY, |all, child| match children.bounds(child) {
+                // A NaN corner must not spread.
+                bounds if bounds.is_empty() => all,
+                bounds => all.join(bounds),
+            });
+        // What is empty can never be hit, and is left out.
+        self.unbounded = (0..self.built)
+            .filter(|&child| !children.bounds(child).is_empty())
+            .filter(|&child| !children.bounds(child).is_bounded())
+            .collect();
+        self.members.names = Names::keeping(self.built, |child| {
+            let bounds = children.bounds(child);
+            !bounds.is_empty() && bounds.is_bounded()
+        });
+        (self.index, self.table) = (None, Vec::new());
+        if self.members.names.count() == 0 {
+            return;
+        }
+        let mut leaves = Leaves::default();
+        let mut index = T::build(&self.params, &self.members, &mut leaves);
+        self.expected = index.expected(&self.members, &leaves);
+        if C::PACKED && !T::LISTS {
+            self.expected.tests = vec![self.expected.tests.iter().sum()];
+            index.rename_leaves(&self.members.children.pack(&leaves, &self.members.names));
+        } else {
+            let (table, leaves) = leaves.into_table();
+            self.table = table;
+            index.rename_leaves(&leaves);
+        }
+        self.index = Some(index);
+    }
+
+    /// Children outside the index: unbounded, or added since the last build.
+    #[inline(always)]
+    fn loose(&self) -> impl Iterator<Item = u32> + '_ {
+        self.unbounded.iter().copied().chain(self.built..self.members.children.count())
+    }
+
+    /// What one random ray costs in the index, and its memory.
+    fn index_cost(&self, index: &T, model: &CostModel) -> Cost {
+        let children = &self.members.children;
+        let mut bytes = index.bytes() + children.packed_bytes();
+        bytes += size_of_val(self.table.as_slice()) as u64 + self.members.names.bytes();
+        let mut nanos = self.expected.steps * model.step(T::NAME);
+        let mut missed = 1.0;
+        if C::PACKED && !T::LISTS {
+            nanos += f64::from(self.expected.tests[0]) * children.cost(0, model).nanos();
+            missed = 0.5;
+        } else {
+            for (number, &tests) in (0..).zip(&self.expected.tests) {
+                let cost = children.cost(self.members.names.child(number), model);
+                nanos += f64::from(tests) * cost.nanos();
+                missed *= 1.0 - (f64::from(tests) * cost.hit_rate).min(1.0);
+                bytes += cost.bytes;
+            }
+        }
+        // A ray that hits stops on the way: on average half way [Arvo 90].
+        Cost { hit_nanos: nanos / 2.0, miss_nanos: nanos, hit_rate: 1.0 - missed, bytes }
+    }
+}
+
+impl<T: Technique, C: Children> Object for Accel<T, C> {
+    fn kind(&self) -> &'static str {
+        T::NAME
+    }
+
+    fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    fn bounds_during(&self, time: [f32; 2]) -> Aabb {
+        let children = &self.members.children;
+        (0..children.count())
+            .map(|child| children.bounds_during(child, time))
+            .filter(|bounds| !bounds.is_empty())
+            .fold(Aabb::EMPTY, Aabb::join)
+    }
+
+    fn along(&self, direction: Vec3A) -> [f32; 2] {
+        let children = &self.members.children;
+        let none = [f32::INFINITY, f32::NEG_INFINITY];
+        (0..children.count())
+            .filter(|&child| !children.bounds(child).is_empty())
+            .map(|child| children.along(child, direction))
+            .fold(none, |[low, high], [a, b]| [low.min(a), high.max(b)])
+    }
+
+    fn closest_hit(&self, ray: &Ray, hit: &mut Hit, scratch: &mut Scratch) -> bool {
+        dispatch!(scratch.level, simd => self.closest(simd, ray, hit, scratch))
+    }
+
+    fn any_hit(&self, ray: &Ray, scratch: &mut Scratch) -> bool {
+        dispatch!(scratch.level, simd => self.any(simd, ray, scratch))
+    }
+
+    fn all_hits(&self, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch) {
+        dispatch!(scratch.level, simd => self.all(simd, ray, hits, scratch));
+    }
+
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Hit], scratch: &mut Scratch) {
+        assert_eq!(rays.len(), hits.len(), "one hit per ray");
+        if let Level::Counting(simd) = scratch.level {
+            for (ray, hit) in rays.iter().zip(hits) {
+                self.closest(simd, ray, hit, scratch);
+            }
+            return;
+        }
+        for child in self.loose() {
+            self.members.children.closest_hits(child, rays, hits, scratch);
+        }
+        if let Some(index) = &self.index {
+            let out = (hits, &mut [][..]);
+            dispatch!(scratch.level, simd =>
+                self.barrel::<_, false>(simd, index, rays, out, scratch));
+        }
+    }
+
+    fn any_hits(&self, rays: &[Ray], blocked: &mut [bool], scratch: &mut Scratch) {
+        assert_eq!(rays.len(), blocked.len(), "one answer per ray");
+        if let Level::Counting(simd) = scratch.level {
+            for (ray, blocked) in rays.iter().zip(blocked) {
+                *blocked = *blocked || self.any(simd, ray, scratch);
+            }
+            return;
+        }
+        for child in self.loose() {
+            self.members.children.any_hits(child, rays, blocked, scratch);
+        }
+        if let Some(index) = &self.index {
+            let out = (&mut [][..], blocked);
+            dispatch!(scratch.level, simd =>
+                self.barrel::<_, true>(simd, index, rays, out, scratch));
+        }
+    }
+
+    fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {
+        self.members.children.surface(ray, hit)
+    }
+
+    fn holds(&self, source: &Source) -> bool {
+        self.members.children.child_of(source).is_some()
+    }
+
+    fn paths(&self) -> u32 {
+        self.members.children.paths()
+    }
+
+    fn cost(&self, model: &CostModel) -> Cost {
+        let mut cost = match &self.index {
+            Some(index) => self.index_cost(index, model),
+            None => Cost::default(),
+        };
+        for child in self.loose() {
+            let one = self.members.children.cost(child, model);
+            cost = cost.plus(one.nanos(), one.bytes);
+        }
+        cost.plus(model.call, size_of::<Self>() as u64)
+    }
+
+    fn settings(&self) -> String {
+        format!("{:?}", self.params)
+    }
+
+    fn visit_children(&self, visit: &mut dyn FnMut(&dyn Object)) {
+        self.members.children.visit(visit);
+    }
+}
+
+impl<T: Technique> Aggregate for Accel<T, Vec<DynObject>> {
+    fn add_child(&mut self, child: DynObject) {
+        let bounds = child.bounds();
+        if !bounds.is_empty() {
+            self.bounds = self.bounds.join(bounds);
+        }
+        self.members.children.push(child);
+    }
+
+    fn build(&mut self) {
+        self.rebuild();
+    }
+}

@@ -1,0 +1,200 @@
+//! Many rays in flight: while the node of one comes from memory, the others move on.
+//!
+//! Rays that stand at nodes and rays that stand at leaves are kept on separate lists and
+//! served in turns, so that the code of one kind runs many times in a row without a branch
+//! that depends on a ray. Rays that come to an object of its own (an instance, a nested
+//! aggregate) are handed on one by one.
+
+use crate::accel::Accel;
+use crate::accel::leaf::This;
+use crate::children::Children;
+use crate::hit::Hit;
+use crate::mailbox::Stamp;
+use crate::ray::Ray;
+use crate::scratch::Scratch;
+use crate::simd::{Simd, prefetch};
+use crate::technique::{Asks, Step, Technique, Walk};
+use crate::trail::Trail;
+
+/// Rays in flight; with half as many, memory is not hidden, with twice as many they push
+/// each other out of the cache.
+const RAYS: usize = 32;
+/// Leaves are served when no more rays than this stand at nodes.
+const FEW: usize = 8;
+
+/// One ray in flight: what every step touches first.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+struct Slot<Cursor, Probe> {
+    cursor: Cursor,
+    limit: f32,
+    at: Step,
+    ray: u32,
+    stamp: Stamp,
+    probe: Probe,
+}
+
+/// A list of slots with room to write one too many.
+struct Slots {
+    slots: [u32; 2 * RAYS],
+    count: usize,
+}
+
+impl Slots {
+    const NONE: Self = Self { slots: [0; 2 * RAYS], count: 0 };
+
+    /// Appends `slot` if `really`, without a branch.
+    #[inline(always)]
+    fn push_if(&mut self, slot: u32, really: bool) {
+        self.slots[self.count & (2 * RAYS - 1)] = slot;
+        self.count += usize::from(really);
+    }
+
+    /// Empties the list and says how many there were; they can still be read while fewer
+    /// are pushed.
+    #[inline(always)]
+    fn drain(&mut self) -> usize {
+        std::mem::take(&mut self.count)
+    }
+
+    #[inline(always)]
+    fn get(&self, at: usize) -> u32 {
+        self.slots[at & (2 * RAYS - 1)]
+    }
+}
+
+/// Where the rays in flight stand.
+struct Lists {
+    onward: Slots,
+    leaf: Slots,
+    free: Slots,
+}
+
+impl Lists {
+    #[inline(always)]
+    fn sort_in(&mut self, slot: u32, at: Step) {
+        let (onward, done) = (at.is_onward(), at.is_done());
+        self.onward.push_if(slot, onward);
+        self.leaf.push_if(slot, !onward & !done);
+        self.free.push_if(slot, done);
+    }
+}
+
+impl<T: Technique, C: Children> Accel<T, C> {
+    /// Traces all `rays`; fills `hits`, or `blocked` if `ANY`.
+    #[inline(always)]
+    pub(super) fn barrel<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &T,
+        rays: &[Ray],
+        (hits, blocked): (&mut [Hit], &mut [bool]),
+        scratch: &mut Scratch,
+    ) {
+        let empty = Slot {
+            cursor: T::Cursor::default(),
+            limit: 0.0,
+            at: Step::DONE,
+            ray: 0,
+            stamp: Stamp::NONE,
+            probe: C::Probe::default(),
+        };
+        let mut slots = [empty; RAYS];
+        let mut trails = [const { Trail::new() }; RAYS];
+        let mut lists = Lists { onward: Slots::NONE, leaf: Slots::NONE, free: Slots::NONE };
+        for slot in 0..RAYS.min(rays.len()) {
+            lists.free.push_if(slot as u32, true);
+        }
+        let mut next = 0;
+        loop {
+            // Let new rays in where others are done.
+            for i in 0..lists.free.drain() {
+                let id = lists.free.get(i);
+                let (slot, trail) =
+                    (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+                scratch.mailbox.close(slot.stamp);
+                slot.stamp = Stamp::NONE;
+                if ANY {
+                    while next < rays.len() && blocked[next] {
+                        next += 1;
+                    }
+                }
+                let Some(ray) = rays.get(next) else { continue };
+                slot.limit = if ANY { ray.t_max() } else { hits[next].t };
+                let mut walk = Walk { ray, trail, family: &self.members };
+                (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
+                slot.probe = self.members.children.probe(ray);
+                slot.ray = next as u32;
+                next += 1;
+                lists.sort_in(id, slot.at);
+            }
+            if lists.onward.count + lists.leaf.count == 0 {
+                if lists.free.count == 0 {
+                    return;
+                }
+                continue;
+            }
+            while lists.onward.count > FEW || (lists.onward.count > 0 && lists.leaf.count == 0) {
+                for i in 0..lists.onward.drain() {
+                    let id = lists.onward.get(i);
+                    let (slot, trail) =
+                        (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+                    let ray = &rays[slot.ray as usize];
+                    let mut walk = Walk { ray, trail, family: &self.members };
+                    slot.at = index.step::<S, Asks<ANY, true>>(
+                        simd,
+                        &mut walk,
+                        &mut slot.cursor,
+                        slot.at,
+                        slot.limit,
+                    );
+                    self.fetch(index, &slot.cursor, slot.at);
+                    lists.sort_in(id, slot.at);
+                }
+            }
+            for i in 0..lists.leaf.drain() {
+                let id = lists.leaf.get(i);
+                let (slot, trail) =
+                    (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+                let nth = slot.ray as usize;
+                let ray = &rays[nth];
+                let this = This { index, ray, probe: &slot.probe, cursor: &slot.cursor };
+                let leaf = slot.at.as_leaf();
+                if ANY {
+                    let hit = self.any_in_leaf(simd, leaf, &this, &mut slot.stamp, scratch);
+                    blocked[nth] |= hit;
+                    slot.limit = if hit { f32::NEG_INFINITY } else { slot.limit };
+                } else {
+                    let out = (&mut hits[nth], &mut slot.stamp);
+                    if self.closest_in_leaf(simd, leaf, &this, out, scratch) {
+                        slot.limit = hits[nth].t;
+                    }
+                }
+                let mut walk = Walk { ray, trail, family: &self.members };
+                slot.at = index.resume::<S, Asks<ANY, true>>(
+                    simd,
+                    &mut walk,
+                    &mut slot.cursor,
+                    slot.limit,
+                );
+                if ANY && slot.limit == f32::NEG_INFINITY {
+                    slot.at = Step::DONE;
+                }
+                self.fetch(index, &slot.cursor, slot.at);
+                lists.sort_in(id, slot.at);
+            }
+        }
+    }
+
+    /// Fetches what the next step or leaf test reads first.
+    #[inline(always)]
+    fn fetch(&self, index: &T, cursor: &T::Cursor, at: Step) {
+        let leaf = if Self::PACKED {
+            self.members.children.address(at.as_leaf())
+        } else {
+            self.table.as_ptr().wrapping_add(at.as_leaf().0 as usize).cast()
+        };
+        let place = index.address(cursor, at);
+        prefetch(std::hint::select_unpredictable(at.is_onward(), place, leaf));
+    }
+}

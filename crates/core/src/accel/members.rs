@@ -1,0 +1,67 @@
+//! The children in an index, as the technique sees them.
+
+use glam::Vec3A;
+
+use crate::aabb::Aabb;
+use crate::beam::{Beam, Facing};
+use crate::children::{Children, Names};
+use crate::cost::CostModel;
+use crate::family::Family;
+use crate::ray::Source;
+
+/// Children and their numbers in the index.
+#[derive(Debug)]
+pub(super) struct Members<C> {
+    pub(super) children: C,
+    pub(super) names: Names,
+}
+
+impl<C: Children> Family for Members<C> {
+    fn count(&self) -> u32 {
+        self.names.count()
+    }
+
+    fn bounds(&self, child: u32) -> Aabb {
+        self.children.bounds(self.names.child(child)).padded()
+    }
+
+    fn weight(&self, child: u32) -> f32 {
+        let cost = self.children.cost(self.names.child(child), &CostModel::default());
+        (cost.nanos() as f32).max(f32::MIN_POSITIVE)
+    }
+
+    fn bounds_during(&self, child: u32, time: [f32; 2]) -> Aabb {
+        self.children.bounds_during(self.names.child(child), time).padded()
+    }
+
+    fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
+        match self.children.clipped(self.names.child(child), cell) {
+            empty if empty.is_empty() => Aabb::EMPTY,
+            part => part.padded(),
+        }
+    }
+
+    fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
+        self.children.along(self.names.child(child), direction)
+    }
+
+    fn touches(&self, child: u32, cell: &Aabb) -> bool {
+        self.children.touches(self.names.child(child), cell)
+    }
+
+    fn meets(&self, child: u32, beam: &Beam) -> Option<[f32; 2]> {
+        self.children.meets(self.names.child(child), beam)
+    }
+
+    fn blocks(&self, child: u32, beam: &Beam) -> Option<f32> {
+        self.children.blocks(self.names.child(child), beam)
+    }
+
+    fn facing(&self, child: u32, beam: &Beam) -> Facing {
+        self.children.facing(self.names.child(child), beam)
+    }
+
+    fn child_of(&self, source: &Source) -> Option<u32> {
+        self.names.number(self.children.child_of(source)?)
+    }
+}

@@ -1,0 +1,318 @@
+//! The collection an aggregate is built over.
+
+use glam::Vec3A;
+
+use crate::aabb::Aabb;
+use crate::beam::{Beam, Facing};
+use crate::cost::{Cost, CostModel};
+use crate::hit::Hit;
+use crate::object::Object;
+use crate::ray::{Ray, Source};
+use crate::scratch::Scratch;
+use crate::simd::Simd;
+use crate::surface::Surface;
+use crate::technique::{Leaf, Leaves};
+
+/// An indexed collection of things to test: a `Vec` of objects, or the triangles
+/// of a mesh without an object for each. Children are numbered from 0.
+///
+/// This is where static and dynamic nesting meet. `Vec<DynObject>` pays one
+/// virtual call per child, `Vec<Bvh<_>>` none, and a triangle mesh is tested in
+/// packed blocks, all through the same [`Accel`](crate::accel::Accel).
+///
+/// The questions are those of [`Object`], asked of one child.
+pub trait Children: Send + Sync {
+    /// Whether it copies its members into leaf order ([`pack`](Self::pack)) and is then
+    /// tested leaf by leaf instead of child by child.
+    const PACKED: bool = false;
+
+    /// What is worth working out once per ray.
+    type Probe: Copy + Default + Send;
+
+    /// How many there are.
+    fn count(&self) -> u32;
+
+    /// [`Object::kind`] for one child.
+    fn kind(&self, child: u32) -> &'static str;
+
+    /// A box around one child, from its data as stored (not recomputed): a vertex
+    /// on a face must be inside. Empty if the child can never be hit.
+    fn bounds(&self, child: u32) -> Aabb;
+
+    /// [`Object::bounds_during`] for one child.
+    fn bounds_during(&self, child: u32, _time: [f32; 2]) -> Aabb {
+        self.bounds(child)
+    }
+
+    /// [`Object::clipped`] for one child.
+    fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
+        self.bounds(child).meet(*cell)
+    }
+
+    /// [`Object::along`] for one child.
+    fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
+        self.bounds(child).along(direction)
+    }
+
+    /// [`Object::touches`] for one child.
+    fn touches(&self, child: u32, cell: &Aabb) -> bool {
+        self.bounds(child).overlaps(cell)
+    }
+
+    /// [`Object::meets`] for one child.
+    fn meets(&self, child: u32, beam: &Beam) -> Option<[f32; 2]> {
+        beam.meets(&self.bounds(child))
+    }
+
+    /// [`Object::blocks`] for one child.
+    fn blocks(&self, _child: u32, _beam: &Beam) -> Option<f32> {
+        None
+    }
+
+    /// [`Object::facing`] for one child.
+    fn facing(&self, _child: u32, _beam: &Beam) -> Facing {
+        Facing::Mixed
+    }
+
+    /// Expected cost of testing one child with a ray that meets its box.
+    fn cost(&self, child: u32, model: &CostModel) -> Cost;
+
+    /// [`Object::closest_hit`] for one child.
+    fn closest_hit(&self, child: u32, ray: &Ray, hit: &mut Hit, scratch: &mut Scratch) -> bool;
+
+    /// [`Object::any_hit`] for one child.
+    fn any_hit(&self, child: u32, ray: &Ray, scratch: &mut Scratch) -> bool;
+
+    /// [`Object::all_hits`] for one child.
+    fn all_hits(&self, child: u32, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch);
+
+    /// [`Object::closest_hits`] for one child.
+    fn closest_hits(&self, child: u32, rays: &[Ray], hits: &mut [Hit], scratch: &mut Scratch) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            self.closest_hit(child, ray, hit, scratch);
+        }
+    }
+
+    /// [`Object::any_hits`] for one child.
+    fn any_hits(&self, child: u32, rays: &[Ray], blocked: &mut [bool], scratch: &mut Scratch) {
+        for (ray, blocked) in rays.iter().zip(blocked) {
+            *blocked = *blocked || self.any_hit(child, ray, scratch);
+        }
+    }
+
+    /// [`Object::surface`] for whichever child the hit is of.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface>;
+
+    /// The child that `source` lies on.
+    fn child_of(&self, _source: &Source) -> Option<u32> {
+        None
+    }
+
+    /// [`Object::paths`] of all children together.
+    fn paths(&self) -> u32 {
+        1
+    }
+
+    /// Lays its members out leaf after leaf and says what each leaf is called from now on.
+    /// `names` maps the numbers in `leaves` to children.
+    ///
+    /// # Panics
+    /// If the collection is not [`PACKED`](Self::PACKED); so do the other questions about
+    /// packed leaves.
+    fn pack(&mut self, _leaves: &Leaves, _names: &Names) -> Vec<Leaf> {
+        unreachable!("not packed")
+    }
+
+    /// Works out the probe of a ray.
+    fn probe(&self, ray: &Ray) -> Self::Probe;
+
+    /// [`Object::closest_hit`] for a packed leaf.
+    fn closest_in_leaf<S: Simd>(
+        &self,
+        _simd: S,
+        _leaf: Leaf,
+        _probe: &Self::Probe,
+        _hit: &mut Hit,
+    ) -> bool {
+        unreachable!("not packed")
+    }
+
+    /// [`Object::any_hit`] for a packed leaf, up to `t_max`.
+    fn any_in_leaf<S: Simd>(
+        &self,
+        _simd: S,
+        _leaf: Leaf,
+        _probe: &Self::Probe,
+        _t_max: f32,
+    ) -> bool {
+        unreachable!("not packed")
+    }
+
+    /// [`Object::all_hits`] for a packed leaf, up to `t_max`.
+    fn all_in_leaf<S: Simd>(
+        &self,
+        _simd: S,
+        _leaf: Leaf,
+        _probe: &Self::Probe,
+        _t_max: f32,
+        _hits: &mut Vec<Hit>,
+    ) {
+        unreachable!("not packed")
+    }
+
+    /// How many members a packed leaf holds; for counters and reports.
+    fn leaf_len(&self, _leaf: Leaf) -> u32 {
+        unreachable!("not packed")
+    }
+
+    /// Where a packed leaf begins; to fetch early, never to read.
+    fn address(&self, _leaf: Leaf) -> *const u8 {
+        std::ptr::null()
+    }
+
+    /// Memory of the packed leaves.
+    fn packed_bytes(&self) -> u64 {
+        0
+    }
+
+    /// Shows each child that is an object of its own.
+    fn visit(&self, _visit: &mut dyn FnMut(&dyn Object)) {}
+}
+
+/// Which child each number of a family stands for.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// Empty if every child is there, under its own number.
+    renamed: Vec<u32>,
+    count: u32,
+}
+
+impl Names {
+    /// The children of `0..all` that `keep` wants.
+    #[must_use]
+    pub fn keeping(all: u32, keep: impl Fn(u32) -> bool) -> Self {
+        let kept: Vec<u32> = (0..all).filter(|&child| keep(child)).collect();
+        let count = kept.len() as u32;
+        Self { renamed: if count == all { Vec::new() } else { kept }, count }
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The child called `number`.
+    #[inline(always)]
+    #[must_use]
+    pub fn child(&self, number: u32) -> u32 {
+        if self.renamed.is_empty() { number } else { self.renamed[number as usize] }
+    }
+
+    /// What a child is called, if it is there.
+    #[must_use]
+    pub fn number(&self, child: u32) -> Option<u32> {
+        if self.renamed.is_empty() {
+            return (child < self.count).then_some(child);
+        }
+        self.renamed.binary_search(&child).ok().map(|number| number as u32)
+    }
+
+    /// Memory in use.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        size_of_val(self.renamed.as_slice()) as u64
+    }
+}
+
+impl<O: Object> Children for Vec<O> {
+    type Probe = ();
+
+    fn count(&self) -> u32 {
+        u32::try_from(self.len()).expect("at most u32::MAX children")
+    }
+
+    fn kind(&self, child: u32) -> &'static str {
+        self[child as usize].kind()
+    }
+
+    fn bounds(&self, child: u32) -> Aabb {
+        self[child as usize].bounds()
+    }
+
+    fn bounds_during(&self, child: u32, time: [f32; 2]) -> Aabb {
+        self[child as usize].bounds_during(time)
+    }
+
+    fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
+        self[child as usize].clipped(cell)
+    }
+
+    fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
+        self[child as usize].along(direction)
+    }
+
+    fn touches(&self, child: u32, cell: &Aabb) -> bool {
+        self[child as usize].touches(cell)
+    }
+
+    fn meets(&self, child: u32, beam: &Beam) -> Option<[f32; 2]> {
+        self[child as usize].meets(beam)
+    }
+
+    fn blocks(&self, child: u32, beam: &Beam) -> Option<f32> {
+        self[child as usize].blocks(beam)
+    }
+
+    fn facing(&self, child: u32, beam: &Beam) -> Facing {
+        self[child as usize].facing(beam)
+    }
+
+    fn cost(&self, child: u32, model: &CostModel) -> Cost {
+        self[child as usize].cost(model)
+    }
+
+    #[inline]
+    fn closest_hit(&self, child: u32, ray: &Ray, hit: &mut Hit, scratch: &mut Scratch) -> bool {
+        self[child as usize].closest_hit(ray, hit, scratch)
+    }
+
+    #[inline]
+    fn any_hit(&self, child: u32, ray: &Ray, scratch: &mut Scratch) -> bool {
+        self[child as usize].any_hit(ray, scratch)
+    }
+
+    fn all_hits(&self, child: u32, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch) {
+        self[child as usize].all_hits(ray, hits, scratch);
+    }
+
+    fn closest_hits(&self, child: u32, rays: &[Ray], hits: &mut [Hit], scratch: &mut Scratch) {
+        self[child as usize].closest_hits(rays, hits, scratch);
+    }
+
+    fn any_hits(&self, child: u32, rays: &[Ray], blocked: &mut [bool], scratch: &mut Scratch) {
+        self[child as usize].any_hits(rays, blocked, scratch);
+    }
+
+    fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {
+        self.iter().find_map(|object| object.surface(ray, hit))
+    }
+
+    fn child_of(&self, source: &Source) -> Option<u32> {
+        self.iter().position(|object| object.holds(source)).map(|child| child as u32)
+    }
+
+    fn paths(&self) -> u32 {
+        self.iter().map(Object::paths).max().unwrap_or(1)
+    }
+
+    #[inline(always)]
+    fn probe(&self, _ray: &Ray) {}
+
+    fn visit(&self, visit: &mut dyn FnMut(&dyn Object)) {
+        for object in self {
+            visit(object);
+        }
+    }
+}

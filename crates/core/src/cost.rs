@@ -1,0 +1,88 @@
+//! Expected cost of a ray, after [Arvo 90, Appendix A].
+
+use std::collections::BTreeMap;
+
+use crate::ray::RayKind;
+
+/// What one ray, or one structure, costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Time of a ray that meets the bounds and hits, in nanoseconds.
+    pub hit_nanos: f64,
+    /// Time of a ray that meets the bounds and hits nothing, in nanoseconds.
+    pub miss_nanos: f64,
+    /// Share of the rays that meet the bounds and hit, in `[0, 1]`.
+    pub hit_rate: f64,
+    /// Memory, in bytes.
+    pub bytes: u64,
+}
+
+impl Cost {
+    /// A primitive that takes as long on a hit as on a miss.
+    #[must_use]
+    pub const fn primitive(nanos: f64, hit_rate: f64, bytes: u64) -> Self {
+        Self { hit_nanos: nanos, miss_nanos: nanos, hit_rate, bytes }
+    }
+
+    /// Time of a ray that meets the bounds, in nanoseconds.
+    #[must_use]
+    pub fn nanos(&self) -> f64 {
+        self.hit_rate * self.hit_nanos + (1.0 - self.hit_rate) * self.miss_nanos
+    }
+
+    /// The same with `nanos` more for every ray and `bytes` more memory.
+    #[must_use]
+    pub fn plus(self, nanos: f64, bytes: u64) -> Self {
+        Self {
+            hit_nanos: self.hit_nanos + nanos,
+            miss_nanos: self.miss_nanos + nanos,
+            bytes: self.bytes + bytes,
+            ..self
+        }
+    }
+}
+
+/// Prices, in nanoseconds, and what rays are asked about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CostModel {
+    /// Entering an aggregate.
+    pub call: f64,
+    /// Moving a ray into an instance.
+    pub transform: f64,
+    /// Testing one primitive, by [`Object::kind`](crate::object::Object::kind).
+    pub primitive: BTreeMap<String, f64>,
+    /// One step of each technique, by name.
+    pub step: BTreeMap<String, f64>,
+    /// The kind of ray under study; none for a mix.
+    pub kind: Option<RayKind>,
+}
+
+impl CostModel {
+    /// Price of one step of `technique`; one never measured costs what a call does.
+    #[must_use]
+    pub fn step(&self, technique: &str) -> f64 {
+        self.step.get(technique).copied().unwrap_or(self.call)
+    }
+
+    /// Price of testing one primitive; one never measured costs what a call does.
+    #[must_use]
+    pub fn primitive(&self, kind: &str) -> f64 {
+        self.primitive.get(kind).copied().unwrap_or(self.call)
+    }
+}
+
+impl Default for CostModel {
+    /// Rough prices of a present-day processor: ratios matter, and calibration replaces them.
+    fn default() -> Self {
+        let named = |prices: &[(&str, f64)]| {
+            prices.iter().map(|&(name, nanos)| (name.to_owned(), nanos)).collect()
+        };
+        Self {
+            call: 15.0,
+            transform: 20.0,
+            primitive: named(&[("triangle", 3.0)]),
+            step: named(&[("bvh", 10.0), ("grid", 4.0), ("list", 0.0)]),
+            kind: None,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Testing a child at most once per traversal.
+
+/// Remembers which children a traversal has tested, exactly.
+///
+/// Every traversal has a set of its own, so an aggregate met twice by one ray, through two
+/// instances, starts afresh each time; a mark kept per *ray* would wrongly skip the second
+/// visit. Sets are bits, one per child, cleared by undoing what was marked, and are used
+/// again: after the first rays nothing is allocated.
+#[derive(Debug, Default)]
+pub struct Mailbox {
+    sets: Vec<Set>,
+    free: Vec<u32>,
+}
+
+/// The children one traversal has tested.
+#[derive(Debug, Default)]
+struct Set {
+    bits: Vec<u64>,
+    marked: Vec<u32>,
+}
+
+/// A traversal's set in a [`Mailbox`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp(u32);
+
+impl Stamp {
+    /// No set taken yet.
+    pub const NONE: Self = Self(u32::MAX);
+}
+
+impl Default for Stamp {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl Mailbox {
+    /// Marks `child`, one of `count`, and says whether this traversal had not seen it. Takes
+    /// a set if `stamp` has none yet; give it back with [`close`](Self::close).
+    #[inline]
+    pub fn first_visit(&mut self, stamp: &mut Stamp, child: u32, count: u32) -> bool {
+        if *stamp == Stamp::NONE {
+            *stamp = self.open(count);
+        }
+        let set = &mut self.sets[stamp.0 as usize];
+        let (word, bit) = ((child / 64) as usize, 1 << (child % 64));
+        let new = set.bits[word] & bit == 0;
+        if new {
+            set.bits[word] |= bit;
+            set.marked.push(child);
+        }
+        new
+    }
+
+    /// Gives a set back, if one was taken.
+    #[inline]
+    pub fn close(&mut self, stamp: Stamp) {
+        if stamp != Stamp::NONE {
+            self.clear(stamp);
+        }
+    }
+
+    #[cold]
+    fn open(&mut self, count: u32) -> Stamp {
+        let id = self.free.pop().unwrap_or_else(|| {
+            self.sets.push(Set::default());
+            self.sets.len() as u32 - 1
+        });
+        let bits = &mut self.sets[id as usize].bits;
+        if bits.len() < (count as usize).div_ceil(64) {
+            bits.resize((count as usize).div_ceil(64), 0);
+        }
+        Stamp(id)
+    }
+
+    fn clear(&mut self, stamp: Stamp) {
+        let set = &mut self.sets[stamp.0 as usize];
+        for child in set.marked.drain(..) {
+            set.bits[(child / 64) as usize] = 0;
+        }
+        self.free.push(stamp.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn traversals_do_not_see_each_others_marks() {
+        let mut mailbox = Mailbox::default();
+        let (mut outer, mut inner) = (Stamp::NONE, Stamp::NONE);
+        assert!(mailbox.first_visit(&mut outer, 5, 10));
+        assert!(mailbox.first_visit(&mut inner, 5, 1000));
+        assert!(mailbox.first_visit(&mut inner, 999, 1000));
+        assert!(!mailbox.first_visit(&mut outer, 5, 10));
+        mailbox.close(inner);
+        assert!(!mailbox.first_visit(&mut outer, 5, 10));
+        let mut third = Stamp::NONE;
+        assert!(mailbox.first_visit(&mut third, 999, 1000), "a set given back is empty");
+    }
+}

@@ -1,0 +1,315 @@
+//! How an acceleration technique is written.
+
+use std::fmt::Debug;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::family::Family;
+use crate::ray::Ray;
+use crate::simd::Simd;
+use crate::trail::{self, Trail};
+
+/// An acceleration technique: an index over boxes that yields, for a ray, the
+/// children worth testing, roughly nearest first.
+///
+/// A technique never sees an object, a hit or a material, and it never runs a loop of
+/// its own: it says where one ray stands ([`Cursor`](Self::Cursor)) and how that ray
+/// moves by one node or cell. The loops are written once, in [`accel`](crate::accel): one
+/// ray at a time, or many in flight at once.
+///
+/// `start`, `step`, `resume`, `address`, `visit` and `listed` must be `#[inline(always)]`:
+/// only then are they compiled for the vector instructions of `simd`.
+pub trait Technique: Debug + Send + Sync + Sized + 'static {
+    /// The word used for it in plans and on the command line.
+    const NAME: &'static str;
+
+    /// Whether one child may stand in several leaves, and who sees to it that it is tested
+    /// once.
+    const REPEATS: Repeats;
+
+    /// Whether leaves are listed by the technique itself, while rays fly ([`listed`]), and
+    /// not pushed when it is built. For techniques that refine themselves lazily.
+    ///
+    /// [`listed`]: Self::listed
+    const LISTS: bool = false;
+
+    /// Its settings; `Default` is what the literature recommends.
+    type Params: Params;
+
+    /// Where one ray stands, but for what it has put off ([`Trail`]): plain numbers, best
+    /// within 48 bytes, so that it stays in registers or in one cache line.
+    type Cursor: Copy + Default + Send;
+
+    /// Puts a family in order. Every child must be pushed into a leaf, unless the
+    /// technique [`LISTS`](Self::LISTS).
+    fn build(params: &Self::Params, family: &dyn Family, leaves: &mut Leaves) -> Self;
+
+    /// What a uniformly random ray that meets the joint bounds is expected to do. Asked
+    /// once, right after [`build`](Self::build).
+    fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected;
+
+    /// Replaces every leaf, numbered in the order pushed, by `leaves[number]`.
+    fn rename_leaves(&mut self, leaves: &[Leaf]);
+
+    /// Memory in use.
+    fn bytes(&self) -> u64;
+
+    /// Why it cannot serve in this place of a plan, if it cannot.
+    #[must_use]
+    fn objection(_params: &Self::Params, _place: &Place) -> Option<String> {
+        None
+    }
+
+    /// Places a ray at the beginning.
+    fn start<S: Simd>(&self, simd: S, walk: &mut Walk<'_>, limit: f32) -> (Self::Cursor, Step);
+
+    /// Moves a ray that stands at the node or cell `at` by one. It may be shown any leaf that
+    /// begins within `[ray.t_min, limit]`, and must be shown all of them in the end; one that
+    /// begins exactly *at* the limit counts.
+    fn step<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        cursor: &mut Self::Cursor,
+        at: Step,
+        limit: f32,
+    ) -> Step;
+
+    /// Goes on after a leaf was tested; the limit may have shrunk.
+    fn resume<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        cursor: &mut Self::Cursor,
+        limit: f32,
+    ) -> Step;
+
+    /// What the next [`step`](Self::step) reads first; to fetch early, never to read.
+    /// Called for leaves too, with no matter what answer.
+    fn address(&self, cursor: &Self::Cursor, at: Step) -> *const u8;
+
+    /// Whether `child`, shown in the leaf the ray stands at, was shown before. Asked if
+    /// the technique [`REPEATS`](Self::REPEATS) by rule.
+    #[inline(always)]
+    fn visit(&self, _cursor: &Self::Cursor, _child: u32) -> Visit {
+        Visit::First
+    }
+
+    /// The children of a leaf, if the technique [`LISTS`](Self::LISTS) them itself.
+    #[inline(always)]
+    fn listed(&self, _cursor: &Self::Cursor, _leaf: Leaf) -> &[u32] {
+        &[]
+    }
+}
+
+/// What surrounds a ray at every move.
+#[expect(missing_debug_implementations, reason = "lives for one move")]
+pub struct Walk<'a> {
+    /// The ray.
+    pub ray: &'a Ray,
+    /// What it has put off.
+    pub trail: &'a mut Trail,
+    /// The children, for techniques that refine themselves.
+    pub family: &'a dyn Family,
+}
+
+/// Who sees to it that a child that stands in several leaves is tested once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repeats {
+    /// Nobody has to: each child stands in one leaf.
+    Never,
+    /// The technique can tell from where the ray stands ([`Technique::visit`]).
+    ByRule,
+    /// The aggregate keeps a [`Mailbox`](crate::mailbox::Mailbox).
+    Anywhere,
+}
+
+/// Whether a child was shown before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Visit {
+    /// It was not.
+    First,
+    /// It was.
+    Again,
+    /// The rule does not hold for this ray: ask a mailbox.
+    Unknown,
+}
+
+/// Where in a plan a technique stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// How many instances are above it: not 0 means that its space is not the world's.
+    pub instances: usize,
+    /// Whether something in it moves during the shutter.
+    pub moving: bool,
+}
+
+/// Settings of a technique, as written in a plan.
+///
+/// A missing setting takes its default; an unknown one is refused by `Deserialize`, one out
+/// of range by [`check`](Self::check).
+pub trait Params:
+    Clone + Debug + Default + PartialEq + Send + Sync + Serialize + DeserializeOwned
+{
+    /// Settings one step away, for the annealer to try.
+    fn neighbours(&self) -> Vec<Self>;
+
+    /// The name of a setting out of range, and the range.
+    ///
+    /// # Errors
+    /// If there is one.
+    fn check(&self) -> Result<(), OutOfRange>;
+}
+
+/// A setting that is out of range.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutOfRange {
+    /// Its name.
+    pub setting: &'static str,
+    /// What it may be, in words: `1 to 64`.
+    pub range: &'static str,
+}
+
+/// Says that `setting` must be in `range`, unless it is.
+///
+/// # Errors
+/// If it is not.
+pub fn in_range(
+    is: bool,
+    setting: &'static str,
+    range: &'static str,
+) -> Result<(), OutOfRange> {
+    if is { Ok(()) } else { Err(OutOfRange { setting, range }) }
+}
+
+/// What is asked, and how many rays are in flight: known when the loops are compiled.
+pub trait Query: Copy {
+    /// Any hit will do, so leaves may come in any order.
+    const ANY: bool;
+    /// Many rays take turns: no branch is predictable, so prefer code without.
+    const MANY: bool;
+}
+
+/// A [`Query`].
+#[derive(Clone, Copy, Debug)]
+pub struct Asks<const ANY: bool, const MANY: bool>;
+
+impl<const ANY: bool, const MANY: bool> Query for Asks<ANY, MANY> {
+    const ANY: bool = ANY;
+    const MANY: bool = MANY;
+}
+
+/// What a ray meets next: a place of the technique's own (31 bits of its choice), a leaf,
+/// or nothing any more. One word, so that trees can keep it in their nodes and in the
+/// [`Trail`] as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Step(u32);
+
+impl Step {
+    /// Nothing is left.
+    pub const DONE: Self = Self(trail::DONE);
+    const LEAF: u32 = 1 << 31;
+
+    /// A node or cell.
+    #[inline(always)]
+    #[must_use]
+    pub const fn onward(place: u32) -> Self {
+        debug_assert!(place < Self::LEAF);
+        Self(place)
+    }
+
+    /// Children to test.
+    #[inline(always)]
+    #[must_use]
+    pub const fn leaf(leaf: Leaf) -> Self {
+        Self(Self::LEAF | leaf.0)
+    }
+
+    /// From [`word`](Self::word).
+    #[inline(always)]
+    #[must_use]
+    pub const fn from_word(word: u32) -> Self {
+        Self(word)
+    }
+
+    /// As one word; the place, if it is one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn word(self) -> u32 {
+        self.0
+    }
+
+    /// Whether it is a node or cell.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_onward(self) -> bool {
+        self.0 < Self::LEAF
+    }
+
+    /// Whether nothing is left.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_done(self) -> bool {
+        self.0 == trail::DONE
+    }
+
+    /// The leaf, if it is one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn as_leaf(self) -> Leaf {
+        Leaf(self.0 & !Self::LEAF)
+    }
+}
+
+/// A leaf: its number while building, then whatever the children call it (31 bits, not
+/// all ones).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Leaf(pub u32);
+
+/// The leaves of a technique, in the order pushed.
+#[derive(Debug, Default)]
+pub struct Leaves {
+    /// For each leaf its length, then its children.
+    entries: Vec<u32>,
+    /// Where each leaf begins.
+    starts: Vec<u32>,
+}
+
+impl Leaves {
+    /// Appends a leaf and says how it is called.
+    pub fn push(&mut self, children: &[u32]) -> Leaf {
+        let number = self.starts.len() as u32;
+        self.starts.push(u32::try_from(self.entries.len()).expect("fewer than 2³¹ leaf entries"));
+        self.entries.push(children.len() as u32);
+        self.entries.extend_from_slice(children);
+        Leaf(number)
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// The children of leaf `number`.
+    #[must_use]
+    pub fn of(&self, number: usize) -> &[u32] {
+        let start = self.starts[number] as usize;
+        &self.entries[start + 1..][..self.entries[start] as usize]
+    }
+
+    /// Gives up the numbers: what is left is one table, and where each leaf begins in it.
+    pub(crate) fn into_table(self) -> (Vec<u32>, Vec<Leaf>) {
+        (self.entries, self.starts.into_iter().map(Leaf).collect())
+    }
+}
+
+/// What one random ray is expected to do in an index.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Expected {
+    /// Steps of the technique itself (nodes, cells).
+    pub steps: f64,
+    /// Expected tests of each child, one entry per box.
+    pub tests: Vec<f32>,
+}

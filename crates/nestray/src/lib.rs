@@ -1,0 +1,1 @@
+//! Ray tracing by nested acceleration techniques.

@@ -1,0 +1,1 @@
+//! How a scene is put in order: plans, checked and built.

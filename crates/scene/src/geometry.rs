@@ -1,0 +1,70 @@
+//! Shapes with a name and a material.
+
+use std::sync::Arc;
+
+use nestray_core::aabb::Aabb;
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::shape::{Shape, Sides};
+use nestray_shapes::triangle_mesh::Triangles;
+
+/// A set of primitives of one material. Hits count geometries in file order, and primitives
+/// within each.
+#[derive(Clone, Debug)]
+pub struct Geometry {
+    /// What it is called; may be empty.
+    pub name: String,
+    /// Its material.
+    pub material: usize,
+    /// Which sides can be seen.
+    pub sides: Sides,
+    /// The primitives.
+    pub content: Content,
+}
+
+/// The primitives of a geometry; shared by all that use them.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Triangles.
+    Mesh(Arc<Triangles>),
+    /// Single shapes.
+    Shapes(Arc<Vec<AnyShape>>),
+}
+
+impl Geometry {
+    /// A mesh, seen from both sides.
+    #[must_use]
+    pub fn mesh(name: impl Into<String>, material: usize, triangles: Triangles) -> Self {
+        let content = Content::Mesh(Arc::new(triangles));
+        Self { name: name.into(), material, sides: Sides::Both, content }
+    }
+
+    /// Single shapes, seen from both sides.
+    #[must_use]
+    pub fn shapes(name: impl Into<String>, material: usize, shapes: Vec<AnyShape>) -> Self {
+        let content = Content::Shapes(Arc::new(shapes));
+        Self { name: name.into(), material, sides: Sides::Both, content }
+    }
+
+    /// How many primitives there are.
+    #[must_use]
+    pub fn primitives(&self) -> u32 {
+        match &self.content {
+            Content::Mesh(triangles) => triangles.count(),
+            Content::Shapes(shapes) => shapes.len() as u32,
+        }
+    }
+
+    /// A box around everything in it that is bounded.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        let all: Vec<Aabb> = match &self.content {
+            Content::Mesh(triangles) => {
+                (0..triangles.count()).map(|triangle| triangles.bounds(triangle)).collect()
+            }
+            Content::Shapes(shapes) => shapes.iter().map(Shape::bounds).collect(),
+        };
+        all.into_iter()
+            .filter(|bounds| !bounds.is_empty() && bounds.is_bounded())
+            .fold(Aabb::EMPTY, Aabb::join)
+    }
+}

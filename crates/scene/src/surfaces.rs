@@ -1,0 +1,101 @@
+//! What a hit looks like, looked up by its ids.
+
+use glam::Affine3A;
+use nestray_core::hit::{Hit, InstancePath};
+use nestray_core::instance::Still;
+use nestray_core::object::Object;
+use nestray_core::ray::Ray;
+use nestray_core::surface::Surface;
+use nestray_shapes::shape::Single;
+
+use crate::geometry::Content;
+use crate::group::Motion;
+use crate::paths::{Paths, PathsError};
+use crate::scene::Scene;
+
+/// Finds the surface of a hit in a scene, whatever nest found the hit.
+#[derive(Debug)]
+pub struct Surfaces<'a> {
+    scene: &'a Scene,
+    paths: Paths,
+}
+
+/// A surface, and what it is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// The surface, in the world.
+    pub surface: Surface,
+    /// Its material.
+    pub material: usize,
+    /// Linear colour and alpha of the vertices there, white if they have none.
+    pub color: [f32; 4],
+}
+
+impl<'a> Surfaces<'a> {
+    /// For hits of this scene.
+    ///
+    /// # Errors
+    /// If its places cannot be numbered.
+    pub fn new(scene: &'a Scene) -> Result<Self, PathsError> {
+        Ok(Self { scene, paths: Paths::new(scene)? })
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The numbers of its places.
+    #[must_use]
+    pub fn paths(&self) -> &Paths {
+        &self.paths
+    }
+
+    /// What `ray` sees at `hit`.
+    ///
+    /// # Panics
+    /// If the hit is none, or not of this scene.
+    #[must_use]
+    pub fn at(&self, ray: &Ray, hit: &Hit) -> Point {
+        let geometry = &self.scene.geometries[hit.geometry as usize];
+        let places = self.places(hit.path, ray.time());
+        let (surface, color) = match &geometry.content {
+            Content::Mesh(triangles) => {
+                let uv = [hit.u, hit.v];
+                (triangles.surface(hit.primitive, uv), triangles.color(hit.primitive, uv))
+            }
+            Content::Shapes(shapes) => {
+                let inside = places.iter().fold(*ray, |ray, (to_from, _)| {
+                    ray.entering(to_from, 1, 1)
+                });
+                let single = Single::new(hit.geometry, &shapes[hit.primitive as usize]);
+                let hit = Hit { primitive: 0, path: InstancePath::NONE, ..*hit };
+                (single.surface(&inside, &hit).expect("the hit is of it"), None)
+            }
+        };
+        let surface = places.iter().rev().fold(surface, |surface, (_, from_to)| {
+            surface.transformed(from_to)
+        });
+        Point { surface, material: geometry.material, color: color.unwrap_or([1.0; 4]) }
+    }
+
+    /// Into and out of each place on a path, outermost first.
+    fn places(&self, path: InstancePath, time: f32) -> Vec<(Affine3A, Affine3A)> {
+        let place = |(group, place): (usize, usize)| {
+            match &self.scene.groups[group].places[place].motion {
+                Motion::Still(at) => both(&Still::new(*at), time),
+                Motion::Keys(keys) => both(keys, time),
+                Motion::Node(node) => {
+                    both(&Still::new(self.scene.animation.world_from_node(*node, 0.0)), time)
+                }
+            }
+        };
+        self.paths.places(path).into_iter().map(place).collect()
+    }
+}
+
+fn both(motion: &impl nestray_core::instance::Motion, time: f32) -> (Affine3A, Affine3A) {
+    let to_from = motion.object_from_world(time).unwrap_or(Affine3A::IDENTITY);
+    (to_from, motion.world_from_object(time))
+}

@@ -1,0 +1,65 @@
+//! Any single shape, as one type: so that a list of mixed shapes needs no box for each.
+
+use glam::Vec3A;
+use nestray_core::aabb::Aabb;
+use nestray_core::beam::{Beam, Facing};
+use nestray_core::ray::Ray;
+use nestray_core::surface::Surface;
+
+use crate::shape::{Crossing, Shape};
+use crate::sphere::Sphere;
+
+/// Passes every question on to the shape inside.
+macro_rules! any_shape {
+    ($($(#[$doc:meta])* $name:ident($shape:ty),)+) => {
+        /// One of the single shapes.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum AnyShape {
+            $($(#[$doc])* $name($shape),)+
+        }
+
+        $(impl From<$shape> for AnyShape {
+            fn from(shape: $shape) -> Self {
+                Self::$name(shape)
+            }
+        })+
+
+        impl Shape for AnyShape {
+            fn kind(&self) -> &'static str {
+                match self { $(Self::$name(shape) => shape.kind(),)+ }
+            }
+            fn bounds(&self) -> Aabb {
+                match self { $(Self::$name(shape) => shape.bounds(),)+ }
+            }
+            fn along(&self, direction: Vec3A) -> [f32; 2] {
+                match self { $(Self::$name(shape) => shape.along(direction),)+ }
+            }
+            fn hull_area(&self) -> f32 {
+                match self { $(Self::$name(shape) => shape.hull_area(),)+ }
+            }
+            fn touches(&self, cell: &Aabb) -> bool {
+                match self { $(Self::$name(shape) => shape.touches(cell),)+ }
+            }
+            fn facing(&self, beam: &Beam) -> Facing {
+                match self { $(Self::$name(shape) => shape.facing(beam),)+ }
+            }
+            fn blocks(&self, beam: &Beam) -> Option<f32> {
+                match self { $(Self::$name(shape) => shape.blocks(beam),)+ }
+            }
+            fn crossings(&self, ray: &Ray, found: impl FnMut(Crossing)) {
+                match self { $(Self::$name(shape) => shape.crossings(ray, found),)+ }
+            }
+            fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
+                match self { $(Self::$name(shape) => shape.surface(ray, crossing),)+ }
+            }
+            fn is_flat(&self) -> bool {
+                match self { $(Self::$name(shape) => shape.is_flat(),)+ }
+            }
+        }
+    };
+}
+
+any_shape! {
+    /// See [`Sphere`].
+    Sphere(Sphere),
+}

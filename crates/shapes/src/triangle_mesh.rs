@@ -1,0 +1,270 @@
+//! Triangles, tested eight at a time, without a gap between neighbours.
+
+mod exact;
+mod kernel;
+mod layout;
+mod surface;
+mod test;
+mod triangles;
+
+use std::collections::HashMap;
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+use glam::Vec3A;
+use nestray_core::aabb::Aabb;
+use nestray_core::children::{Children, Names};
+use nestray_core::cost::{Cost, CostModel};
+use nestray_core::hit::{Hit, InstancePath};
+use nestray_core::huge::Huge;
+use nestray_core::ray::{Ray, Source};
+use nestray_core::scratch::Scratch;
+use nestray_core::simd::{SCALAR, Scalar, Simd};
+use nestray_core::surface::Surface;
+use nestray_core::technique::{Leaf, Leaves};
+
+use crate::shape::Sides;
+
+pub use self::kernel::{Shared, Soup};
+pub use self::layout::Layout;
+pub use self::test::{Probe, Shear};
+pub use self::triangles::{MeshError, Triangles};
+
+/// Triangles that share their vertices in packed leaves.
+pub type TriangleMesh = Mesh<Shared>;
+
+/// Triangles that do not: smaller leaves where few neighbours meet.
+pub type TriangleSoup = Mesh<Soup>;
+
+/// A family of triangles; each triangle is a child, none is an object. `L` says how leaves
+/// are packed, and never changes an answer.
+#[derive(Clone, Debug)]
+pub struct Mesh<L> {
+    geometry: u32,
+    sides: Sides,
+    triangles: Arc<Triangles>,
+    blocks: Huge<[u32; 8]>,
+    /// The triangles of all blocks, in order.
+    primitives: Huge<u32>,
+    layout: PhantomData<L>,
+}
+
+impl<L: Layout> Mesh<L> {
+    /// Geometry number `geometry`; triangle `i` reports `primitive == i`. Triangles with a
+    /// corner that is not finite, or farther out than [`Ray::FARTHEST`], are never hit.
+    #[must_use]
+    pub fn new(geometry: u32, triangles: Arc<Triangles>) -> Self {
+        Self {
+            geometry,
+            sides: Sides::Both,
+            triangles,
+            blocks: Huge::default(),
+            primitives: Huge::default(),
+            layout: PhantomData,
+        }
+    }
+
+    /// The same mesh seen from some sides only.
+    #[must_use]
+    pub fn seen_from(self, sides: Sides) -> Self {
+        Self { sides, ..self }
+    }
+
+    /// The data it is made of.
+    #[must_use]
+    pub fn triangles(&self) -> &Arc<Triangles> {
+        &self.triangles
+    }
+
+    /// The primitives of a packed leaf; for reports and viewers.
+    #[must_use]
+    pub fn primitives_in(&self, leaf: Leaf) -> Vec<u32> {
+        let mut primitives = Vec::new();
+        for block in self.chain(leaf) {
+            let first = self.blocks[L::place(block)][6] as usize;
+            primitives.extend_from_slice(&self.primitives[first..][..L::len(block)]);
+        }
+        primitives
+    }
+
+    /// The blocks of a leaf.
+    fn chain(&self, leaf: Leaf) -> impl Iterator<Item = Leaf> + '_ {
+        std::iter::successors(Some(leaf), |&block| {
+            match self.blocks[L::place(block)][7] {
+                layout::LAST => None,
+                next => Some(Leaf(next)),
+            }
+        })
+    }
+
+    /// One triangle in the first lane, by the same arithmetic.
+    fn alone(&self, child: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
+        if child == probe.skip || !self.triangles.is_usable(child) {
+            return None;
+        }
+        let corners = self.triangles.corners(child);
+        let lane = |corner: usize, axis: usize| SCALAR.splat(corners[corner][axis]);
+        let shear = &probe.shear;
+        let corners = [0, 1, 2].map(|c| {
+            let axis = |i: usize| lane(c, shear.axis(i));
+            shear.apply(SCALAR, axis(0), axis(1), axis(2))
+        });
+        let block = layout::Block { corners, shared: None, lanes: 1, first: 0, next: None };
+        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| child)?;
+        Some(hits.lane(SCALAR, 0))
+    }
+}
+
+impl<L: Layout> Children for Mesh<L> {
+    const PACKED: bool = true;
+    type Probe = Probe;
+
+    fn count(&self) -> u32 {
+        self.triangles.count()
+    }
+
+    fn kind(&self, _child: u32) -> &'static str {
+        "triangle"
+    }
+
+    fn bounds(&self, child: u32) -> Aabb {
+        self.triangles.bounds(child)
+    }
+
+    fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
+        self.triangles.clipped(child, cell)
+    }
+
+    fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
+        self.triangles.along(child, direction)
+    }
+
+    fn cost(&self, _child: u32, model: &CostModel) -> Cost {
+        Cost::primitive(model.primitive("triangle"), 0.3, size_of::<[u32; 3]>() as u64)
+    }
+
+    fn closest_hit(&self, child: u32, ray: &Ray, hit: &mut Hit, _scratch: &mut Scratch) -> bool {
+        self.alone(child, &self.probe(ray), hit.t)
+            .is_some_and(|(t, uv)| hit.offer(t, uv, self.geometry, child))
+    }
+
+    fn any_hit(&self, child: u32, ray: &Ray, _scratch: &mut Scratch) -> bool {
+        self.alone(child, &self.probe(ray), ray.t_max()).is_some()
+    }
+
+    fn all_hits(&self, child: u32, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch) {
+        let mut hit = Hit::none(ray.t_max());
+        if self.closest_hit(child, ray, &mut hit, scratch) {
+            hits.push(hit);
+        }
+    }
+
+    fn surface(&self, _ray: &Ray, hit: &Hit) -> Option<Surface> {
+        (hit.geometry == self.geometry && hit.path == InstancePath::NONE)
+            .then(|| self.triangles.surface(hit.primitive, [hit.u, hit.v]))
+    }
+
+    fn child_of(&self, source: &Source) -> Option<u32> {
+        (source.geometry == self.geometry && source.path == InstancePath::NONE)
+            .then_some(source.primitive)
+    }
+
+    fn pack(&mut self, leaves: &Leaves, names: &Names) -> Vec<Leaf> {
+        let faces = merged(&self.triangles);
+        let packed = layout::pack::<L>(&self.triangles.positions, &faces, leaves, names);
+        // A full set of lanes may be read past the last block.
+        self.blocks = Huge::new(&packed.blocks, 256);
+        self.primitives = Huge::new(&packed.primitives, 32);
+        packed.leaves
+    }
+
+    #[inline(always)]
+    fn probe(&self, ray: &Ray) -> Probe {
+        let skip = self.child_of(&ray.source()).unwrap_or(Hit::NOTHING);
+        Probe { shear: Shear::new(ray), skip, sides: self.sides }
+    }
+
+    #[inline(always)]
+    fn closest_in_leaf<S: Simd>(
+        &self,
+        simd: S,
+        mut leaf: Leaf,
+        probe: &Probe,
+        hit: &mut Hit,
+    ) -> bool {
+        let mut found = false;
+        loop {
+            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
+            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
+            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, hit.t, primitive) {
+                // Primitives ascend in a block, so the first lane wins a tie.
+                let (lane, t, uv) = hits.nearest(simd);
+                found |= hit.offer(t, uv, self.geometry, primitive(lane));
+            }
+            let Some(next) = block.next else { return found };
+            leaf = next;
+        }
+    }
+
+    #[inline(always)]
+    fn any_in_leaf<S: Simd>(&self, simd: S, mut leaf: Leaf, probe: &Probe, t_max: f32) -> bool {
+        loop {
+            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
+            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
+            if test::hits::<S, L>(simd, probe, &block, t_max, primitive).is_some() {
+                return true;
+            }
+            let Some(next) = block.next else { return false };
+            leaf = next;
+        }
+    }
+
+    #[inline(always)]
+    fn all_in_leaf<S: Simd>(
+        &self,
+        simd: S,
+        mut leaf: Leaf,
+        probe: &Probe,
+        t_max: f32,
+        out: &mut Vec<Hit>,
+    ) {
+        loop {
+            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
+            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
+            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, t_max, primitive) {
+                for lane in (0..8).filter(|lane| hits.mask >> lane & 1 == 1) {
+                    let (t, uv) = hits.lane(simd, lane);
+                    let mut hit = Hit::none(t_max);
+                    if hit.offer(t, uv, self.geometry, primitive(lane)) {
+                        out.push(hit);
+                    }
+                }
+            }
+            let Some(next) = block.next else { return };
+            leaf = next;
+        }
+    }
+
+    fn leaf_len(&self, leaf: Leaf) -> u32 {
+        self.chain(leaf).map(|block| L::len(block) as u32).sum()
+    }
+
+    #[inline(always)]
+    fn address(&self, leaf: Leaf) -> *const u8 {
+        L::address(&self.blocks, leaf)
+    }
+
+    fn packed_bytes(&self) -> u64 {
+        (size_of_val::<[[u32; 8]]>(&self.blocks) + size_of_val::<[u32]>(&self.primitives)) as u64
+    }
+}
+
+/// The faces with vertices in the same place made one.
+fn merged(triangles: &Triangles) -> Vec<[u32; 3]> {
+    let mut seen = HashMap::with_capacity(triangles.positions.len());
+    let same: Vec<u32> = (0..)
+        .zip(&triangles.positions)
+        .map(|(i, v)| *seen.entry(v.map(f32::to_bits)).or_insert(i))
+        .collect();
+    triangles.faces.iter().map(|face| face.map(|v| same[v as usize])).collect()
+}

@@ -1,0 +1,198 @@
+//! The one triangle test: watertight, after [Woop 13].
+//!
+//! The ray is made the z axis by a shear, the same for all triangles, so two triangles
+//! that share an edge see the same two points and decide with exactly opposite signs.
+//! Plain multiplies and adds, never fused: the same bits on every machine.
+
+use nestray_core::hit::Hit;
+use nestray_core::ray::Ray;
+use nestray_core::simd::Simd;
+
+use super::exact;
+use super::layout::{Block, Layout};
+use crate::shape::Sides;
+
+/// What a ray brings to the triangles of a mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Probe {
+    /// The space in which it is the z axis.
+    pub shear: Shear,
+    /// The triangle it left, which it cannot meet again.
+    pub(super) skip: u32,
+    /// Which sides it can see.
+    pub(super) sides: Sides,
+}
+
+/// The space in which a ray runs along z, from 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shear {
+    origin: [f32; 3],
+    /// `dir.x / dir.z`, `dir.y / dir.z`, `1 / dir.z`, where z is the longest.
+    slope: [f32; 3],
+    t_min: f32,
+    axes: [u8; 3],
+}
+
+impl Shear {
+    /// The shear of a ray.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(ray: &Ray) -> Self {
+        let size = ray.dir().abs().to_array();
+        let z = if size[0] > size[1] {
+            if size[0] > size[2] { 0 } else { 2 }
+        } else {
+            1 + usize::from(size[1] <= size[2])
+        };
+        let x = [1, 2, 0][z];
+        let y = [2, 0, 1][z];
+        let (origin, dir) = (ray.origin().to_array(), ray.dir().to_array());
+        let inverse = 1.0 / dir[z];
+        Self {
+            origin: [origin[x], origin[y], origin[z]],
+            slope: [dir[x] * inverse, dir[y] * inverse, inverse],
+            t_min: ray.t_min(),
+            axes: [x as u8, y as u8, z as u8],
+        }
+    }
+
+    /// Which axis of space is axis `i` here.
+    #[inline(always)]
+    pub(super) fn axis(&self, i: usize) -> usize {
+        usize::from(self.axes[i])
+    }
+
+    /// Points, given by their coordinates along [`axis`](Self::axis) 0, 1 and 2.
+    #[inline(always)]
+    pub(super) fn apply<S: Simd>(&self, simd: S, x: S::F32, y: S::F32, z: S::F32) -> [S::F32; 3] {
+        let from = |a: S::F32, i: usize| simd.sub(a, simd.splat(self.origin[i]));
+        let z = from(z, 2);
+        let shift =
+            |a: S::F32, i: usize| simd.sub(from(a, i), simd.mul(simd.splat(self.slope[i]), z));
+        [shift(x, 0), shift(y, 1), z]
+    }
+}
+
+/// Where eight triangles are hit.
+#[derive(Clone, Copy)]
+pub(super) struct Hits<S: Simd> {
+    /// The lanes that are, at least one.
+    pub(super) mask: u32,
+    t: S::F32,
+    /// Weights of the second and third corner.
+    weights: [S::F32; 2],
+}
+
+impl<S: Simd> Hits<S> {
+    /// Distance and barycentrics in one lane.
+    #[inline(always)]
+    pub(super) fn lane(&self, simd: S, lane: usize) -> (f32, [f32; 2]) {
+        let [v, w] = self.weights;
+        let uv = [simd.array(v)[lane & 7], simd.array(w)[lane & 7]];
+        (simd.array(self.t)[lane & 7], uv)
+    }
+
+    /// The nearest lane, the first of equals.
+    #[inline(always)]
+    pub(super) fn nearest(&self, simd: S) -> (usize, f32, [f32; 2]) {
+        let least = simd.least(self.mask, self.t);
+        let lane = (simd.eq(self.t, simd.splat(least)) & self.mask).trailing_zeros() as usize;
+        let (_, uv) = self.lane(simd, lane);
+        (lane, least, uv)
+    }
+}
+
+/// Tests the triangles of a block; `primitive` says which one is in a lane.
+#[inline(always)]
+pub(super) fn hits<S: Simd, L: Layout>(
+    simd: S,
+    probe: &Probe,
+    block: &Block<S>,
+    limit: f32,
+    primitive: impl Fn(usize) -> u32,
+) -> Option<Hits<S>> {
+    let Probe { shear, skip, sides } = probe;
+    let [a, b, c] = block.corners;
+    let edge =
+        |a: [S::F32; 3], b: [S::F32; 3]| simd.sub(simd.mul(a[0], b[1]), simd.mul(a[1], b[0]));
+    let zero = simd.splat(0.0);
+    let mut edges = [edge(c, b), edge(a, c), edge(b, a)];
+    let mut mask = inside(simd, edges) & block.lanes;
+    if mask == 0 {
+        return None;
+    }
+    // A zero may have been rounded to: decide such lanes with doubles. Other signs are right.
+    let [u, v, w] = edges;
+    let unclear = (simd.eq(u, zero) | simd.eq(v, zero) | simd.eq(w, zero)) & mask;
+    if unclear != 0 {
+        let arrays = |p: [S::F32; 3]| [simd.array(p[0]), simd.array(p[1])];
+        let rounded = [simd.array(u), simd.array(v), simd.array(w)];
+        let fixed = exact::edges(unclear, [arrays(a), arrays(b), arrays(c)], rounded);
+        edges = [simd.load(&fixed[0]), simd.load(&fixed[1]), simd.load(&fixed[2])];
+        mask &= inside(simd, edges);
+    }
+    let [u, v, w] = edges;
+    let sum = simd.add(simd.add(u, v), w);
+    if *sides != Sides::Both {
+        // The sum is twice the area, positive where the corners run clockwise along z.
+        let front = if shear.slope[2] > 0.0 { simd.le(zero, sum) } else { simd.le(sum, zero) };
+        mask &= if *sides == Sides::Front { front } else { !front };
+    }
+    let depths = L::depths(simd, block);
+    let inverse = simd.div(simd.splat(1.0), sum);
+    // Weights first: they are at most 1, so that the sum lies between the depths, and nothing
+    // overflows. NaN, and so no hit, for a triangle seen exactly from its side.
+    let weights = [simd.mul(u, inverse), simd.mul(v, inverse), simd.mul(w, inverse)];
+    let sum = simd.add(simd.mul(weights[0], depths[0]), simd.mul(weights[1], depths[1]));
+    let depth = within_bounds(simd, shear, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
+    let t = simd.mul(depth, simd.splat(shear.slope[2]));
+    mask &= simd.le(simd.splat(shear.t_min), t) & simd.le(t, simd.splat(limit));
+    if *skip != Hit::NOTHING {
+        let hit = mask;
+        for lane in (0..8).filter(|lane| hit >> lane & 1 == 1) {
+            mask &= !(u32::from(primitive(lane) == *skip) << lane);
+        }
+    }
+    (mask != 0).then_some(Hits { mask, t, weights: [weights[1], weights[2]] })
+}
+
+/// Lanes where all three edge functions have the same sign, or are zero.
+#[inline(always)]
+fn inside<S: Simd>(simd: S, [u, v, w]: [S::F32; 3]) -> u32 {
+    let zero = simd.splat(0.0);
+    let least = simd.min(simd.min(u, v), w);
+    let most = simd.max(simd.max(u, v), w);
+    simd.le(zero, least) | simd.le(most, zero)
+}
+
+/// Depths moved to where the ray is within the box of each triangle.
+///
+/// Of a triangle seen nearly from its side the weights are mostly rounding, and the hit may
+/// be anywhere along it. Without this, one technique in a hundred thousand rays would look
+/// for the hit where another does not.
+#[inline(always)]
+fn within_bounds<S: Simd>(
+    simd: S,
+    shear: &Shear,
+    block: &Block<S>,
+    depths: [S::F32; 3],
+    depth: S::F32,
+) -> S::F32 {
+    let [az, bz, cz] = depths;
+    let mut enter = simd.min(simd.min(az, bz), cz);
+    let mut leave = simd.max(simd.max(az, bz), cz);
+    // Along an axis that the ray hardly moves along, it does not leave the box.
+    for axis in (0..2).filter(|&axis| shear.slope[axis].abs() > 1e-9) {
+        // Unsheared again, relative to the origin of the ray.
+        let slope = simd.splat(shear.slope[axis]);
+        let [a, b, c] = block.corners;
+        let at = |corner: [S::F32; 3], z: S::F32| simd.add(corner[axis], simd.mul(slope, z));
+        let (a, b, c) = (at(a, az), at(b, bz), at(c, cz));
+        let inverse = simd.splat(1.0 / shear.slope[axis]);
+        let low = simd.mul(simd.min(simd.min(a, b), c), inverse);
+        let high = simd.mul(simd.max(simd.max(a, b), c), inverse);
+        enter = simd.max(simd.min(low, high), enter);
+        leave = simd.min(simd.max(low, high), leave);
+    }
+    simd.min(simd.max(depth, enter), leave)
+}
