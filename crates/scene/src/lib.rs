@@ -21,3 +21,5 @@ pub mod texture;
 pub mod light;
 
 pub mod camera;
+
+pub mod picture;
