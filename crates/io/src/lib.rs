@@ -1,1 +1,8 @@
 //! Readers and writers of scenes and pictures.
+//!
+//! [`load::load`] reads a scene of any format it knows. What a file says of its own size is
+//! checked against its bytes before anything is set aside for it.
+
+pub mod load;
+
+pub mod error;
