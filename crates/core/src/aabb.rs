@@ -118,7 +118,8 @@ impl Aabb {
     #[inline]
     #[must_use]
     pub fn corner(self, which: u32) -> Vec3A {
-        let pick = |axis: usize| if which >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
+        let pick =
+            |axis: usize| if which >> axis & 1 == 0 { self.min[axis] } else { self.max[axis] };
         Vec3A::new(pick(0), pick(1), pick(2))
     }
 
@@ -180,7 +181,12 @@ impl Clip {
         let inverse = ray.inverse_dir();
         let slack = inverse.abs() * (origin.abs().max_element().max(reach) * slack);
         let middle = origin * inverse;
-        Self { inverse, near: middle + slack, far: middle - slack, t_min: ray.t_min().max(0.0) + 0.0 }
+        Self {
+            inverse,
+            near: middle + slack,
+            far: middle - slack,
+            t_min: ray.t_min().max(0.0) + 0.0,
+        }
     }
 
     /// Where the ray is inside `bounds`, as `(enter, leave)` clipped to its range and to

@@ -55,16 +55,36 @@ impl Beam {
         let mut range = [0.0, f64::from(self.farthest)];
         // Along the main axis the slope is one; seen backwards, coordinates change sign.
         let (low, high, from, to) = if self.backward {
-            (-side(bounds.max, a), -side(bounds.min, a), -side(self.origin.max, a), -side(self.origin.min, a))
+            (
+                -side(bounds.max, a),
+                -side(bounds.min, a),
+                -side(self.origin.max, a),
+                -side(self.origin.min, a),
+            )
         } else {
-            (side(bounds.min, a), side(bounds.max, a), side(self.origin.min, a), side(self.origin.max, a))
+            (
+                side(bounds.min, a),
+                side(bounds.max, a),
+                side(self.origin.min, a),
+                side(self.origin.max, a),
+            )
         };
         at_least(&mut range, 1.0, to, low);
         at_least(&mut range, -1.0, -from, -high);
         for (axis, slopes) in [(b, self.u), (c, self.v)] {
             // The farthest out that any ray can be must reach the near side, and so on.
-            at_least(&mut range, f64::from(slopes[1]), side(self.origin.max, axis), side(bounds.min, axis));
-            at_least(&mut range, -f64::from(slopes[0]), -side(self.origin.min, axis), -side(bounds.max, axis));
+            at_least(
+                &mut range,
+                f64::from(slopes[1]),
+                side(self.origin.max, axis),
+                side(bounds.min, axis),
+            );
+            at_least(
+                &mut range,
+                -f64::from(slopes[0]),
+                -side(self.origin.min, axis),
+                -side(bounds.max, axis),
+            );
         }
         // Half-lines were cut in doubles; a hair for the way back to `f32`.
         let slack = (self.origin.reach().max(bounds.reach()) * 1e-6).min(f32::MAX);
@@ -140,8 +160,8 @@ mod tests {
             missed += usize::from(answer.is_none());
             for _ in 0..20 {
                 let o = beam.origin;
-                let origin = o.min
-                    + o.size() * Vec3A::new(numbers.next(), numbers.next(), numbers.next());
+                let origin =
+                    o.min + o.size() * Vec3A::new(numbers.next(), numbers.next(), numbers.next());
                 let u = numbers.between(beam.u[0], beam.u[1]);
                 let v = numbers.between(beam.v[0], beam.v[1]);
                 let s = numbers.between(0.0, beam.farthest.min(8.0));
@@ -167,10 +187,8 @@ mod tests {
             let s = (first + last.min(first + 8.0)) / 2.0;
             let [low, high] = [(beam.u[0], beam.v[0]), (beam.u[1], beam.v[1])]
                 .map(|(u, v)| direction(&beam, u, v) * s);
-            let filled = Aabb {
-                min: beam.origin.min + low.min(high),
-                max: beam.origin.max + low.max(high),
-            };
+            let filled =
+                Aabb { min: beam.origin.min + low.min(high), max: beam.origin.max + low.max(high) };
             let grown = Aabb { min: filled.min - 1e-4, max: filled.max + 1e-4 };
             assert!(grown.overlaps(&bounds), "seed 12, case {case}");
         }

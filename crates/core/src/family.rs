@@ -23,6 +23,10 @@ pub trait Family {
     /// more than a triangle. Positive.
     fn weight(&self, child: u32) -> f32;
 
+    /// How many children of one leaf are tested for the price of one: more than 1 where
+    /// they are packed.
+    fn together(&self) -> u32;
+
     /// [`Object::bounds_during`](crate::object::Object::bounds_during), padded alike.
     fn bounds_during(&self, child: u32, time: [f32; 2]) -> Aabb;
 

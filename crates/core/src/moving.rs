@@ -41,7 +41,10 @@ impl Keys {
         if keys[0].0.is_nan() {
             return Err(KeysError::Order(0));
         }
-        match keys.windows(2).position(|pair| pair[0].0.partial_cmp(&pair[1].0) != Some(std::cmp::Ordering::Less)) {
+        match keys
+            .windows(2)
+            .position(|pair| pair[0].0.partial_cmp(&pair[1].0) != Some(std::cmp::Ordering::Less))
+        {
             Some(at) => Err(KeysError::Order(at + 1)),
             None => Ok(Self { keys }),
         }

@@ -262,9 +262,7 @@ mod tests {
             assert!(ray.t_min() > ray.t_max(), "{origin} {dir}");
             assert!(ray.origin().is_finite() && ray.dir().is_finite());
         }
-        assert!(
-            Ray::new(Vec3A::ZERO, Vec3A::X, RayKind::Camera).between(nan, 1.0).t_max() < 0.0
-        );
+        assert!(Ray::new(Vec3A::ZERO, Vec3A::X, RayKind::Camera).between(nan, 1.0).t_max() < 0.0);
     }
 
     #[test]

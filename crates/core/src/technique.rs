@@ -175,11 +175,7 @@ pub struct OutOfRange {
 ///
 /// # Errors
 /// If it is not.
-pub fn in_range(
-    is: bool,
-    setting: &'static str,
-    range: &'static str,
-) -> Result<(), OutOfRange> {
+pub fn in_range(is: bool, setting: &'static str, range: &'static str) -> Result<(), OutOfRange> {
     if is { Ok(()) } else { Err(OutOfRange { setting, range }) }
 }
 

@@ -70,6 +70,12 @@ impl<L: Layout> Mesh<L> {
         Self { sides, ..self }
     }
 
+    /// The same mesh, not yet packed, to be laid out in another way.
+    #[must_use]
+    pub fn packed_otherwise<M: Layout>(&self) -> Mesh<M> {
+        Mesh::new(self.geometry, Arc::clone(&self.triangles)).seen_from(self.sides)
+    }
+
     /// The data it is made of.
     #[must_use]
     pub fn triangles(&self) -> &Arc<Triangles> {

@@ -30,6 +30,10 @@ impl<C: Children> Family for Members<C> {
         (cost.nanos() as f32).max(f32::MIN_POSITIVE)
     }
 
+    fn together(&self) -> u32 {
+        if C::PACKED { 8 } else { 1 }
+    }
+
     fn bounds_during(&self, child: u32, time: [f32; 2]) -> Aabb {
         self.children.bounds_during(self.names.child(child), time).padded()
     }

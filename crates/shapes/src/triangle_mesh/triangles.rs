@@ -176,6 +176,13 @@ impl Triangles {
         self.faces[triangle as usize].map(|vertex| self.positions[vertex as usize])
     }
 
+    /// Whether triangles have few vertices in common: more than two of each three are their
+    /// own. Then a layout without shared vertices is smaller.
+    #[must_use]
+    pub fn is_soup(&self) -> bool {
+        self.positions.len() > 2 * self.faces.len()
+    }
+
     /// Whether a triangle can be hit at all: its corners are in range.
     #[must_use]
     pub fn is_usable(&self, triangle: u32) -> bool {

@@ -1,0 +1,132 @@
+//! How many cells.
+
+use glam::Vec3A;
+use nestray_core::aabb::{Aabb, Clip};
+
+use super::GridParams;
+
+/// Nanoseconds a step takes, about.
+const STEP: f64 = 4.0;
+/// Densities to choose from, in cells per child.
+const DENSITIES: [f32; 8] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+/// Children looked at to choose, evenly spread.
+const SAMPLE: usize = 20_000;
+
+/// Cells along each axis: about cubical, as many as settings or expected cost say, and not
+/// so many that lists outgrow the children.
+pub(super) fn resolution(
+    params: &GridParams,
+    bounds: Aabb,
+    boxes: &[Aabb],
+    weights: &[f32],
+    together: u32,
+) -> [u32; 3] {
+    let counted = Counted { bounds, boxes, weights, together };
+    if params.density > 0.0 {
+        // As asked, unless memory would explode: then the finest below.
+        let below = DENSITIES.iter().rev().filter(|&&density| density < params.density);
+        let fits = [params.density]
+            .iter()
+            .chain(below)
+            .map(|&d| cells(params, bounds, boxes.len(), d))
+            .find(|&cells| counted.fits(cells));
+        return fits.unwrap_or([1; 3]);
+    }
+    DENSITIES
+        .iter()
+        .map(|&density| cells(params, bounds, boxes.len(), density))
+        .chain([[1; 3]])
+        .filter(|&cells| counted.fits(cells))
+        .min_by(|&a, &b| counted.cost(a).total_cmp(&counted.cost(b)))
+        .unwrap_or([1; 3])
+}
+
+/// About cubical cells, `density` per child.
+fn cells(params: &GridParams, bounds: Aabb, children: usize, density: f32) -> [u32; 3] {
+    // In doubles: volumes of huge boxes overflow.
+    let size = bounds.size().as_dvec3();
+    let wanted = f64::from(density) * children as f64;
+    let per_unit = cube_root(wanted / size.element_product());
+    let least = f64::from(8.0 * Clip::SLACK * bounds.reach());
+    size.to_array().map(|edge| {
+        // Cells narrower than rounding would hold everything anyway.
+        let most = (edge / least).min(f64::from(params.max_cells)).max(1.0);
+        (edge * per_unit).clamp(1.0, most) as u32
+    })
+}
+
+/// The cube root of a positive number by Newton's method: the same on every machine.
+fn cube_root(x: f64) -> f64 {
+    if !(x.is_finite() && x > 0.0) {
+        return 0.0;
+    }
+    // A third of the exponent is a good start.
+    let mut root = f64::from_bits(x.to_bits() / 3 + 0x2A9F_7893_782D_A1CE);
+    for _ in 0..6 {
+        root -= (root - x / (root * root)) / 3.0;
+    }
+    root
+}
+
+/// Mean number of cells a random line crosses: `Σ nᵢAᵢ / ΣA`, with `Aᵢ` the faces.
+pub(super) fn steps(cells: [u32; 3], bounds: Aabb) -> f64 {
+    let s = bounds.size().as_dvec3();
+    let faces = [s.y * s.z, s.z * s.x, s.x * s.y];
+    let all: f64 = faces.iter().sum();
+    (0..3).map(|axis| f64::from(cells[axis]) * faces[axis]).sum::<f64>() / all
+}
+
+/// The children, for trying a resolution on them.
+struct Counted<'a> {
+    bounds: Aabb,
+    boxes: &'a [Aabb],
+    weights: &'a [f32],
+    together: u32,
+}
+
+impl Counted<'_> {
+    /// Some children, and how many each stands for.
+    fn sample(&self) -> (impl Iterator<Item = usize>, f64) {
+        let stride = self.boxes.len().div_ceil(SAMPLE);
+        let taken = self.boxes.len().div_ceil(stride);
+        ((0..self.boxes.len()).step_by(stride), self.boxes.len() as f64 / taken as f64)
+    }
+
+    /// Edges of the block of cells around a box, on average over where walls may be, and how
+    /// many cells that is.
+    fn block(&self, child: usize, cell: Vec3A) -> (Vec3A, f64) {
+        let block = (self.boxes[child].size() + cell).min(self.bounds.size());
+        (block, (block / cell).as_dvec3().element_product())
+    }
+
+    /// Whether there are not too many cells, nor entries in their lists.
+    fn fits(&self, cells: [u32; 3]) -> bool {
+        let count = self.boxes.len() as f64;
+        let all = cells.iter().map(|&n| f64::from(n)).product::<f64>();
+        let cell = self.bounds.size() / Vec3A::from_array(cells.map(|n| n as f32));
+        let (sample, each) = self.sample();
+        // Wide children are kept apart.
+        let entries = |child| Some(self.block(child, cell).1).filter(|&n| n <= all / 4.0);
+        let entries: f64 = sample.filter_map(entries).sum::<f64>() * each;
+        all <= (64.0 * count + 4096.0).min(f64::from(1u32 << 27))
+            && entries <= 16.0 * count + 4096.0
+    }
+
+    /// Nanoseconds a random line takes, all the way through.
+    fn cost(&self, cells: [u32; 3]) -> f64 {
+        let cell = self.bounds.size() / Vec3A::from_array(cells.map(|n| n as f32));
+        let area = |s: Vec3A| {
+            let s = s.as_dvec3();
+            s.x * s.y + s.y * s.z + s.z * s.x
+        };
+        let whole = area(self.bounds.size());
+        let (sample, each) = self.sample();
+        let tests = sample.map(|child| {
+            let (block, count) = self.block(child, cell);
+            // Packed children are tested in every cell, others once in their block.
+            let reached = if self.together > 1 { count * area(cell) } else { area(block) };
+            reached / whole * f64::from(self.weights[child])
+        });
+        steps(cells, self.bounds) * STEP + tests.sum::<f64>() * each
+    }
+}
