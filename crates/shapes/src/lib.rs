@@ -7,4 +7,6 @@ pub mod any;
 
 pub mod sphere;
 
+pub mod bezier;
+
 pub mod triangle_mesh;
