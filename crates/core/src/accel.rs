@@ -8,10 +8,11 @@ mod single;
 use glam::Vec3A;
 
 use crate::aabb::Aabb;
-use crate::children::{Children, Names};
+use crate::children::Children;
 use crate::cost::{Cost, CostModel};
 use crate::dispatch;
 use crate::hit::Hit;
+use crate::names::Names;
 use crate::object::{Aggregate, DynObject, Object};
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;

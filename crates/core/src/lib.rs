@@ -20,6 +20,8 @@ pub mod object;
 
 pub mod children;
 
+pub mod names;
+
 pub mod family;
 
 pub mod technique;

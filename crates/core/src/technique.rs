@@ -1,5 +1,7 @@
 //! How an acceleration technique is written.
 
+mod step;
+
 use std::fmt::Debug;
 
 use serde::Serialize;
@@ -8,7 +10,9 @@ use serde::de::DeserializeOwned;
 use crate::family::Family;
 use crate::ray::Ray;
 use crate::simd::Simd;
-use crate::trail::{self, Trail};
+use crate::trail::Trail;
+
+pub use self::step::{Leaf, Leaves, Step};
 
 /// An acceleration technique: an index over boxes that yields, for a ray, the
 /// children worth testing, roughly nearest first.
@@ -194,111 +198,6 @@ pub struct Asks<const ANY: bool, const MANY: bool>;
 impl<const ANY: bool, const MANY: bool> Query for Asks<ANY, MANY> {
     const ANY: bool = ANY;
     const MANY: bool = MANY;
-}
-
-/// What a ray meets next: a place of the technique's own (31 bits of its choice), a leaf,
-/// or nothing any more. One word, so that trees can keep it in their nodes and in the
-/// [`Trail`] as it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Step(u32);
-
-impl Step {
-    /// Nothing is left.
-    pub const DONE: Self = Self(trail::DONE);
-    const LEAF: u32 = 1 << 31;
-
-    /// A node or cell.
-    #[inline(always)]
-    #[must_use]
-    pub const fn onward(place: u32) -> Self {
-        debug_assert!(place < Self::LEAF);
-        Self(place)
-    }
-
-    /// Children to test.
-    #[inline(always)]
-    #[must_use]
-    pub const fn leaf(leaf: Leaf) -> Self {
-        Self(Self::LEAF | leaf.0)
-    }
-
-    /// From [`word`](Self::word).
-    #[inline(always)]
-    #[must_use]
-    pub const fn from_word(word: u32) -> Self {
-        Self(word)
-    }
-
-    /// As one word; the place, if it is one.
-    #[inline(always)]
-    #[must_use]
-    pub const fn word(self) -> u32 {
-        self.0
-    }
-
-    /// Whether it is a node or cell.
-    #[inline(always)]
-    #[must_use]
-    pub const fn is_onward(self) -> bool {
-        self.0 < Self::LEAF
-    }
-
-    /// Whether nothing is left.
-    #[inline(always)]
-    #[must_use]
-    pub const fn is_done(self) -> bool {
-        self.0 == trail::DONE
-    }
-
-    /// The leaf, if it is one.
-    #[inline(always)]
-    #[must_use]
-    pub const fn as_leaf(self) -> Leaf {
-        Leaf(self.0 & !Self::LEAF)
-    }
-}
-
-/// A leaf: its number while building, then whatever the children call it (31 bits, not
-/// all ones).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Leaf(pub u32);
-
-/// The leaves of a technique, in the order pushed.
-#[derive(Debug, Default)]
-pub struct Leaves {
-    /// For each leaf its length, then its children.
-    entries: Vec<u32>,
-    /// Where each leaf begins.
-    starts: Vec<u32>,
-}
-
-impl Leaves {
-    /// Appends a leaf and says how it is called.
-    pub fn push(&mut self, children: &[u32]) -> Leaf {
-        let number = self.starts.len() as u32;
-        self.starts.push(u32::try_from(self.entries.len()).expect("fewer than 2³¹ leaf entries"));
-        self.entries.push(children.len() as u32);
-        self.entries.extend_from_slice(children);
-        Leaf(number)
-    }
-
-    /// How many there are.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.starts.len()
-    }
-
-    /// The children of leaf `number`.
-    #[must_use]
-    pub fn of(&self, number: usize) -> &[u32] {
-        let start = self.starts[number] as usize;
-        &self.entries[start + 1..][..self.entries[start] as usize]
-    }
-
-    /// Gives up the numbers: what is left is one table, and where each leaf begins in it.
-    pub(crate) fn into_table(self) -> (Vec<u32>, Vec<Leaf>) {
-        (self.entries, self.starts.into_iter().map(Leaf).collect())
-    }
 }
 
 /// What one random ray is expected to do in an index.

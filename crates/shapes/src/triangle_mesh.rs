@@ -13,10 +13,11 @@ use std::sync::Arc;
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
-use nestray_core::children::{Children, Names};
+use nestray_core::children::Children;
 use nestray_core::cost::{Cost, CostModel};
 use nestray_core::hit::{Hit, InstancePath};
 use nestray_core::huge::Huge;
+use nestray_core::names::Names;
 use nestray_core::ray::{Ray, Source};
 use nestray_core::scratch::Scratch;
 use nestray_core::simd::{SCALAR, Scalar, Simd};

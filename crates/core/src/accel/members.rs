@@ -4,9 +4,10 @@ use glam::Vec3A;
 
 use crate::aabb::Aabb;
 use crate::beam::{Beam, Facing};
-use crate::children::{Children, Names};
+use crate::children::Children;
 use crate::cost::CostModel;
 use crate::family::Family;
+use crate::names::Names;
 use crate::ray::Source;
 
 /// Children and their numbers in the index.

@@ -1,7 +1,7 @@
 //! How leaves are packed.
 
-use nestray_core::children::Names;
 use nestray_core::huge::Huge;
+use nestray_core::names::Names;
 use nestray_core::simd::Simd;
 use nestray_core::technique::{Leaf, Leaves};
 

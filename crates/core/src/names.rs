@@ -1,0 +1,48 @@
+//! Which children are in an index, and under which numbers.
+
+/// Which child each number of a family stands for.
+#[derive(Clone, Debug, Default)]
+pub struct Names {
+    /// Empty if every child is there, under its own number.
+    renamed: Vec<u32>,
+    count: u32,
+}
+
+impl Names {
+    /// The children of `0..all` that `keep` wants.
+    #[must_use]
+    pub fn keeping(all: u32, keep: impl Fn(u32) -> bool) -> Self {
+        let kept: Vec<u32> = (0..all).filter(|&child| keep(child)).collect();
+        let count = kept.len() as u32;
+        Self { renamed: if count == all { Vec::new() } else { kept }, count }
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The child called `number`.
+    #[inline(always)]
+    #[must_use]
+    pub fn child(&self, number: u32) -> u32 {
+        if self.renamed.is_empty() { number } else { self.renamed[number as usize] }
+    }
+
+    /// What a child is called, if it is there.
+    #[must_use]
+    pub fn number(&self, child: u32) -> Option<u32> {
+        if self.renamed.is_empty() {
+            return (child < self.count).then_some(child);
+        }
+        self.renamed.binary_search(&child).ok().map(|number| number as u32)
+    }
+
+    /// Memory in use.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        size_of_val(self.renamed.as_slice()) as u64
+    }
+}

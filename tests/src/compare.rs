@@ -1,0 +1,73 @@
+//! Comparison with exhaustive search, bit for bit.
+
+use nestray_core::hit::Hit;
+use nestray_core::object::Object;
+use nestray_core::ray::Ray;
+use nestray_core::scratch::Scratch;
+use nestray_core::simd::Level;
+
+/// Asserts that `nest` answers every query as `oracle` does: closest, any and all hits, one
+/// ray at a time and in batches, on every vector level of this machine.
+///
+/// # Panics
+/// If an answer differs; says which.
+pub fn assert_equal(oracle: &dyn Object, nest: &dyn Object, rays: &[Ray], what: &str) {
+    let mut scratch = Scratch::new();
+    let mut hits = Vec::with_capacity(rays.len());
+    for (i, ray) in rays.iter().enumerate() {
+        let (expected, found) = (closest(oracle, ray, &mut scratch), closest(nest, ray, &mut scratch));
+        assert!(same(&expected, &found), "{what}, ray {i}: {expected:?} but {found:?} for {ray:?}");
+        let any = nest.any_hit(ray, &mut scratch);
+        assert_eq!(any, expected.is_some(), "{what}, any hit of ray {i}: {expected:?} for {ray:?}");
+        if i % 4 == 0 {
+            let (expected, found) = (all(oracle, ray, &mut scratch), all(nest, ray, &mut scratch));
+            assert_eq!(expected, found, "{what}, all hits of ray {i}: {ray:?}");
+        }
+        hits.push(found);
+    }
+    for level in Level::available().into_iter().chain([Scratch::counting().level]) {
+        assert_batches(nest, rays, &hits, level, what);
+    }
+}
+
+/// Batches on a level against what single rays found.
+fn assert_batches(nest: &dyn Object, rays: &[Ray], expected: &[Hit], level: Level, what: &str) {
+    let mut scratch = Scratch::with_level(level);
+    let mut hits: Vec<Hit> = rays.iter().map(|ray| Hit::none(ray.t_max())).collect();
+    nest.closest_hits(rays, &mut hits, &mut scratch);
+    let mut blocked = vec![false; rays.len()];
+    nest.any_hits(rays, &mut blocked, &mut scratch);
+    for (i, expected) in expected.iter().enumerate() {
+        let ray = &rays[i];
+        let found = &hits[i];
+        assert!(same(expected, found), "{what}, batch on {level:?}, ray {i}: {expected:?} but {found:?} for {ray:?}");
+        assert_eq!(blocked[i], expected.is_some(), "{what}, any hits on {level:?}, ray {i}: {ray:?}");
+    }
+    for (i, ray) in rays.iter().enumerate().step_by(7) {
+        let found = closest(nest, ray, &mut scratch);
+        assert!(same(&expected[i], &found), "{what}, single on {level:?}, ray {i}: {ray:?}");
+    }
+}
+
+/// The nearest hit.
+pub fn closest(object: &dyn Object, ray: &Ray, scratch: &mut Scratch) -> Hit {
+    let mut hit = Hit::none(ray.t_max());
+    let found = object.closest_hit(ray, &mut hit, scratch);
+    assert_eq!(found, hit.is_some(), "the answer and the hit disagree for {ray:?}");
+    hit
+}
+
+/// All hits, sorted, each once.
+pub fn all(object: &dyn Object, ray: &Ray, scratch: &mut Scratch) -> Vec<Hit> {
+    let mut hits = Vec::new();
+    object.all_hits(ray, &mut hits, scratch);
+    let key = |hit: &Hit| (hit.t.to_bits(), hit.id(), hit.u.to_bits(), hit.v.to_bits());
+    hits.sort_by_key(key);
+    hits.dedup_by_key(|hit| key(hit));
+    hits
+}
+
+/// The same bits; a zero may have either sign.
+fn same(a: &Hit, b: &Hit) -> bool {
+    a == b
+}

@@ -1,0 +1,89 @@
+//! Rays that ask hard questions.
+
+use glam::Vec3A;
+use nestray_core::aabb::Aabb;
+use nestray_core::ray::{Ray, RayKind};
+
+use crate::numbers::Numbers;
+
+/// Rays at a world within `bounds`, some aimed exactly at points of `aims` (vertices, edge
+/// points, corners of boxes). The same for the same seed.
+#[must_use]
+pub fn hard(seed: u64, bounds: Aabb, aims: &[Vec3A], count: usize) -> Vec<Ray> {
+    let mut numbers = Numbers::new(seed);
+    (0..count).map(|_| ray(&mut numbers, bounds, aims)).collect()
+}
+
+fn ray(numbers: &mut Numbers, bounds: Aabb, aims: &[Vec3A]) -> Ray {
+    let origin = origin(numbers, bounds, aims);
+    let dir = direction(numbers, bounds, aims, origin);
+    let kind = *numbers.pick(&[
+        RayKind::Camera,
+        RayKind::Shadow { light: 0 },
+        RayKind::Shadow { light: 3 },
+        RayKind::Reflect,
+        RayKind::Refract,
+        RayKind::Diffuse,
+        RayKind::Custom(7),
+    ]);
+    let ray = Ray::new(origin, dir, kind).at_time(numbers.unit());
+    match numbers.below(8) {
+        0 => ray.between(numbers.between(0.0, 0.5), numbers.between(0.3, 1.5)),
+        1 => ray.between(0.0, numbers.between(0.0, 2.0)),
+        _ => ray,
+    }
+}
+
+/// Outside, inside, far away, on a point, in a plane.
+fn origin(numbers: &mut Numbers, bounds: Aabb, aims: &[Vec3A]) -> Vec3A {
+    let size = bounds.size();
+    let inside = bounds.min + numbers.point() * size;
+    let around = bounds.min + (numbers.point() * 3.0 - 1.0) * size;
+    match numbers.below(16) {
+        0..4 => inside,
+        4 if !aims.is_empty() => *numbers.pick(aims),
+        5 => {
+            // In the plane of a face.
+            let mut origin = around;
+            let axis = numbers.below(3);
+            origin[axis] = if numbers.once_in(2) { bounds.min[axis] } else { bounds.max[axis] };
+            origin
+        }
+        6 if !aims.is_empty() => {
+            // In a plane with a point.
+            let mut origin = around;
+            let axis = numbers.below(3);
+            origin[axis] = numbers.pick(aims)[axis];
+            origin
+        }
+        7 => {
+            let far = *numbers.pick(&[10.0, 100.0, 1e4, 1e6]);
+            bounds.center() + numbers.direction() * (size.max_element() * far)
+        }
+        _ => around,
+    }
+}
+
+/// At a point, along an axis with either zero, or anywhere; of any length.
+fn direction(numbers: &mut Numbers, bounds: Aabb, aims: &[Vec3A], origin: Vec3A) -> Vec3A {
+    let dir = match numbers.below(8) {
+        0 | 1 => {
+            let mut dir = Vec3A::ZERO;
+            for axis in 0..3 {
+                dir[axis] = if numbers.once_in(2) { 0.0 } else { -0.0 };
+            }
+            dir[numbers.below(3)] = if numbers.once_in(2) { 1.0 } else { -1.0 };
+            dir
+        }
+        2 => {
+            let mut dir = numbers.direction();
+            dir[numbers.below(3)] = if numbers.once_in(2) { 0.0 } else { -0.0 };
+            dir
+        }
+        3 | 4 if !aims.is_empty() => *numbers.pick(aims) - origin,
+        5 | 6 => bounds.min + numbers.point() * bounds.size() - origin,
+        _ => numbers.direction(),
+    };
+    let length = *numbers.pick(&[1.0, 1.0, 1.0, 0.01, 700.0]);
+    dir * length
+}

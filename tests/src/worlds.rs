@@ -1,0 +1,261 @@
+//! Worlds to ask about: the children, and points worth aiming at.
+
+use std::sync::Arc;
+
+use glam::{Affine3A, Vec3A};
+use nestray_core::aabb::Aabb;
+use nestray_core::instance::Instance;
+use nestray_core::moving::{Keys, Moving};
+use nestray_core::object::{DynObject, Object};
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::shape::{Shape, Sides, Single};
+use nestray_shapes::sphere::Sphere;
+use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
+use nestray_techniques::list::{List, ListParams};
+use nestray_techniques::registry::Members;
+
+use crate::numbers::Numbers;
+
+/// Children for an aggregate.
+#[derive(Debug)]
+pub struct World {
+    /// What it is.
+    pub name: &'static str,
+    /// The children.
+    pub members: Members,
+    /// Points worth aiming at.
+    pub aims: Vec<Vec3A>,
+}
+
+impl World {
+    /// Exhaustive search.
+    #[must_use]
+    pub fn oracle(&self) -> DynObject {
+        let params = ListParams::default();
+        match self.members.clone() {
+            Members::Objects(objects) => Arc::new(List::new(params, objects)),
+            Members::Shapes(shapes) => Arc::new(List::new(params, shapes)),
+            Members::Triangles(mesh) => Arc::new(List::new(params, mesh)),
+        }
+    }
+
+    /// A box around what is bounded, not empty.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        let bounded = self.aims.iter().fold(Aabb::EMPTY, |all, &aim| all.with(aim));
+        if bounded.is_empty() { Aabb { min: Vec3A::ZERO, max: Vec3A::ONE } } else { bounded }
+    }
+}
+
+/// One world of each family, from a seed.
+#[must_use]
+pub fn families(seed: u64) -> Vec<World> {
+    let mut numbers = Numbers::new(seed);
+    vec![
+        objects(&mut numbers, 60),
+        shapes(&mut numbers, 80),
+        connected(&mut numbers, 8),
+        soup(&mut numbers, 120),
+        instances(&mut numbers, 24),
+        moving(&mut numbers, 24),
+        unbounded(&mut numbers, 40),
+        repeated(&mut numbers, 30),
+    ]
+}
+
+fn spheres(numbers: &mut Numbers, count: usize, geometry: u32) -> Vec<Single<AnyShape>> {
+    (0..count)
+        .map(|primitive| {
+            let radius = numbers.between(0.01, 0.12);
+            let shape = AnyShape::from(Sphere { center: numbers.point(), radius });
+            let sides = *numbers.pick(&[Sides::Both, Sides::Both, Sides::Front, Sides::Back]);
+            Single { geometry, primitive: primitive as u32, sides, shape }
+        })
+        .collect()
+}
+
+fn corners(bounds: Aabb) -> impl Iterator<Item = Vec3A> {
+    (0..8).map(move |i| bounds.corner(i)).chain([bounds.center()])
+}
+
+fn aims_at(shapes: &[Single<AnyShape>]) -> Vec<Vec3A> {
+    let bounded = shapes.iter().map(|single| single.shape.bounds()).filter(|b| b.is_bounded());
+    bounded.flat_map(corners).collect()
+}
+
+/// Single shapes behind pointers.
+fn objects(numbers: &mut Numbers, count: usize) -> World {
+    let shapes = spheres(numbers, count, 0);
+    let aims = aims_at(&shapes);
+    let objects = shapes.into_iter().map(|shape| Arc::new(shape) as DynObject).collect();
+    World { name: "objects", members: Members::Objects(objects), aims }
+}
+
+/// Single shapes side by side.
+fn shapes(numbers: &mut Numbers, count: usize) -> World {
+    let shapes = spheres(numbers, count, 5);
+    let aims = aims_at(&shapes);
+    World { name: "shapes", members: Members::Shapes(shapes), aims }
+}
+
+/// A landscape of connected triangles, its vertices on round numbers.
+fn connected(numbers: &mut Numbers, n: usize) -> World {
+    let at = |i: usize| i as f32 / n as f32;
+    let mut positions = Vec::new();
+    for j in 0..=n {
+        for i in 0..=n {
+            positions.push([at(i), at(j), numbers.below(6) as f32 / 16.0]);
+        }
+    }
+    let vertex = |i: usize, j: usize| (j * (n + 1) + i) as u32;
+    let faces = (0..n * n)
+        .flat_map(|cell| {
+            let (i, j) = (cell % n, cell / n);
+            let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+            let [c, d] = [vertex(i, j + 1), vertex(i + 1, j + 1)];
+            [[a, b, c], [b, d, c]]
+        })
+        .collect();
+    mesh("connected triangles", Triangles::new(positions, faces).expect("indices in range"), Sides::Both)
+}
+
+/// Triangles of their own, some flat, some slivers, some of no area at all.
+fn soup(numbers: &mut Numbers, count: usize) -> World {
+    let corners: Vec<[Vec3A; 3]> = (0..count)
+        .map(|_| {
+            let a = numbers.point();
+            let (mut b, mut c) = (numbers.direction() * 0.2, numbers.direction() * 0.2);
+            match numbers.below(10) {
+                0 => (b.z, c.z) = (0.0, 0.0),
+                1 => (b.x, c.x) = (0.0, 0.0),
+                2 => c = b * 0.5,
+                3 => c = b * 0.999 + c * 1e-4,
+                4 => (b, c) = (b * 4.0, c * 4.0),
+                _ => {}
+            }
+            [a, a + b, a + c]
+        })
+        .collect();
+    let sides = *numbers.pick(&[Sides::Both, Sides::Front, Sides::Back]);
+    mesh("loose triangles", Triangles::from_corners(&corners), sides)
+}
+
+fn mesh(name: &'static str, triangles: Triangles, sides: Sides) -> World {
+    let mut aims: Vec<Vec3A> = triangles.positions().iter().map(|&p| Vec3A::from_array(p)).collect();
+    for triangle in 0..triangles.count() {
+        let [a, b, c] = triangles.corners(triangle).map(Vec3A::from_array);
+        aims.extend([(a + b) * 0.5, (b + c) * 0.5, a * 0.75 + c * 0.25]);
+    }
+    let mesh = TriangleMesh::new(2, Arc::new(triangles)).seen_from(sides);
+    World { name, members: Members::Triangles(mesh), aims }
+}
+
+fn shared_inside(numbers: &mut Numbers) -> DynObject {
+    let params = ListParams::default();
+    match numbers.below(2) {
+        0 => Arc::new(List::new(params, spheres(numbers, 12, 1))),
+        _ => match connected(numbers, 3).members {
+            Members::Triangles(mesh) => Arc::new(List::new(params, mesh)),
+            _ => unreachable!("it is a mesh"),
+        },
+    }
+}
+
+/// A few objects in many places, some of them the same.
+fn instances(numbers: &mut Numbers, count: usize) -> World {
+    let inside = [shared_inside(numbers), shared_inside(numbers)];
+    let mut places: Vec<Affine3A> = (0..count).map(|_| numbers.place(0.4)).collect();
+    places[1] = places[0];
+    let objects: Vec<DynObject> = (1..)
+        .zip(places)
+        .map(|(number, place)| {
+            Arc::new(Instance::new(number, Arc::clone(numbers.pick(&inside)), place)) as DynObject
+        })
+        .collect();
+    placed("instances", objects)
+}
+
+/// The same, moving on straight and bent ways.
+fn moving(numbers: &mut Numbers, count: usize) -> World {
+    let inside = shared_inside(numbers);
+    let objects = (0..count as u32)
+        .map(|i| {
+            let keys = 1 + numbers.below(3);
+            let place = |k: usize, numbers: &mut Numbers| (k as f32 * 0.4, numbers.place(0.3));
+            let keys = (0..keys).map(|k| place(k, numbers)).collect();
+            let keys = Keys::new(keys).expect("times ascend");
+            Arc::new(Moving::new(i + 1, Arc::clone(&inside), keys)) as DynObject
+        })
+        .collect();
+    placed("moving", objects)
+}
+
+fn placed(name: &'static str, objects: Vec<DynObject>) -> World {
+    let aims = objects.iter().flat_map(|object| corners(object.bounds())).collect();
+    World { name, members: Members::Objects(objects), aims }
+}
+
+/// Some that no box can hold among some that one can.
+fn unbounded(numbers: &mut Numbers, count: usize) -> World {
+    let mut world = objects(numbers, count);
+    if let Members::Objects(objects) = &mut world.members {
+        for geometry in 0..3 {
+            objects.push(Arc::new(Endless::new(numbers, 10 + geometry)));
+        }
+    }
+    World { name: "unbounded", ..world }
+}
+
+/// All in the same place, or several times the same.
+fn repeated(numbers: &mut Numbers, count: usize) -> World {
+    let one = spheres(numbers, 1, 0).remove(0);
+    let shapes: Vec<Single<AnyShape>> =
+        (0..count).map(|i| Single { primitive: (i / 2) as u32, ..one.clone() }).collect();
+    let aims = aims_at(&shapes);
+    World { name: "repeated", members: Members::Shapes(shapes), aims }
+}
+
+/// A sphere that claims to be everywhere.
+#[derive(Debug)]
+struct Endless(Single<Sphere>);
+
+impl Endless {
+    fn new(numbers: &mut Numbers, geometry: u32) -> Self {
+        Self(Single::new(geometry, Sphere { center: numbers.point(), radius: 0.3 }))
+    }
+}
+
+impl Object for Endless {
+    fn kind(&self) -> &'static str {
+        "endless"
+    }
+    fn bounds(&self) -> Aabb {
+        Aabb::ENDLESS
+    }
+    fn closest_hit(
+        &self,
+        ray: &nestray_core::ray::Ray,
+        hit: &mut nestray_core::hit::Hit,
+        scratch: &mut nestray_core::scratch::Scratch,
+    ) -> bool {
+        self.0.closest_hit(ray, hit, scratch)
+    }
+    fn all_hits(
+        &self,
+        ray: &nestray_core::ray::Ray,
+        hits: &mut Vec<nestray_core::hit::Hit>,
+        scratch: &mut nestray_core::scratch::Scratch,
+    ) {
+        self.0.all_hits(ray, hits, scratch);
+    }
+    fn surface(
+        &self,
+        ray: &nestray_core::ray::Ray,
+        hit: &nestray_core::hit::Hit,
+    ) -> Option<nestray_core::surface::Surface> {
+        self.0.surface(ray, hit)
+    }
+    fn cost(&self, model: &nestray_core::cost::CostModel) -> nestray_core::cost::Cost {
+        self.0.cost(model)
+    }
+}
