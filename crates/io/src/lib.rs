@@ -6,3 +6,21 @@
 pub mod load;
 
 pub mod error;
+
+pub mod atomic;
+
+pub mod write;
+
+pub mod png;
+
+pub mod exr;
+
+pub mod pfm;
+
+pub mod image;
+
+mod words;
+
+mod polygon;
+
+mod mesh;
