@@ -6,6 +6,14 @@ use nestray_core::beam::{Beam, Facing};
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
+use crate::block::Block;
+use crate::cone::Cone;
+use crate::cylinder::Cylinder;
+use crate::disk::Disk;
+use crate::parallelogram::Parallelogram;
+use crate::patch::Patch;
+use crate::plane::Plane;
+use crate::polygon::Polygon;
 use crate::shape::{Crossing, Shape};
 use crate::sphere::Sphere;
 
@@ -62,4 +70,20 @@ macro_rules! any_shape {
 any_shape! {
     /// See [`Sphere`].
     Sphere(Sphere),
+    /// See [`Cone`].
+    Cone(Cone),
+    /// See [`Cylinder`].
+    Cylinder(Cylinder),
+    /// See [`Plane`].
+    Plane(Plane),
+    /// See [`Disk`].
+    Disk(Disk),
+    /// See [`Parallelogram`].
+    Parallelogram(Parallelogram),
+    /// See [`Block`].
+    Block(Block),
+    /// See [`Polygon`].
+    Polygon(Polygon),
+    /// See [`Patch`].
+    Patch(Patch),
 }

@@ -7,6 +7,26 @@ pub mod any;
 
 pub mod sphere;
 
+pub mod cone;
+
+pub mod cylinder;
+
+pub mod plane;
+
+pub mod disk;
+
+pub mod parallelogram;
+
+pub mod block;
+
+pub mod polygon;
+
+pub mod patch;
+
+mod outline;
+
+mod shadow;
+
 pub mod bezier;
 
 pub mod triangle_mesh;

@@ -159,7 +159,9 @@ impl<S: Shape> Single<S> {
         }
         self.shape.crossings(ray, |crossing| {
             // Written so that NaN is refused.
-            if crossing.t >= ray.t_min() && crossing.t <= ray.t_max() && self.sides.show(crossing.front)
+            if crossing.t >= ray.t_min()
+                && crossing.t <= ray.t_max()
+                && self.sides.show(crossing.front)
             {
                 found(&crossing);
             }
@@ -222,7 +224,8 @@ impl<S: Shape> Object for Single<S> {
     fn all_hits(&self, ray: &Ray, hits: &mut Vec<Hit>, _scratch: &mut Scratch) {
         self.each_hit(ray, |found| {
             let [u, v] = found.uv;
-            let id = Hit { geometry: self.geometry, primitive: self.primitive, ..Hit::none(found.t) };
+            let id =
+                Hit { geometry: self.geometry, primitive: self.primitive, ..Hit::none(found.t) };
             hits.push(Hit { u, v, ..id });
         });
     }
@@ -257,13 +260,42 @@ pub fn bounds_from(min: [f64; 3], max: [f64; 3]) -> Aabb {
     if min.iter().chain(&max).any(|x| x.is_nan()) {
         return Aabb::EMPTY;
     }
-    let down = |x: f64| {
-        let y = x as f32;
-        if f64::from(y) > x { y.next_down() } else { y }
-    };
-    let up = |x: f64| {
-        let y = x as f32;
-        if f64::from(y) < x { y.next_up() } else { y }
-    };
     Aabb { min: Vec3A::from_array(min.map(down)), max: Vec3A::from_array(max.map(up)) }
+}
+
+/// An interval from ends in doubles, rounded outwards; empty unless both are numbers.
+#[must_use]
+pub fn interval_from(low: f64, high: f64) -> [f32; 2] {
+    if low.is_nan() || high.is_nan() { NOWHERE } else { [down(low), up(high)] }
+}
+
+/// The empty interval: how far nothing reaches.
+pub const NOWHERE: [f32; 2] = [f32::INFINITY, f32::NEG_INFINITY];
+
+fn down(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) > x { y.next_down() } else { y }
+}
+
+fn up(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) < x { y.next_up() } else { y }
+}
+
+/// The crossing found anew before its rounding, among the `(t, front)` that `roots` shows: far
+/// from the origin of the ray the rounding of `t` alone moves a point a long way.
+pub(crate) fn unrounded(crossing: &Crossing, roots: impl FnOnce(&mut dyn FnMut(f64, bool))) -> f64 {
+    let mut exact = f64::from(crossing.t);
+    roots(&mut |t, front| {
+        if t as f32 == crossing.t && front == crossing.front {
+            exact = t;
+        }
+    });
+    exact
+}
+
+/// How far rounding may move a point of a shape, or a wall of a cell, of this reach. Twice
+/// what the padding of boxes allows for.
+pub(crate) fn slack(reach: f32) -> f64 {
+    f64::from(reach) * 1e-6 + 1e-30
 }
