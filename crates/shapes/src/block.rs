@@ -6,8 +6,9 @@ use nestray_core::beam::Beam;
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
+use crate::rounding::slack;
 use crate::shadow::{Section, beyond};
-use crate::shape::{Crossing, NOWHERE, Shape, interval_from, slack};
+use crate::shape::{Crossing, NOWHERE, Shape, interval_from};
 
 /// A closed box with faces across the axes; rays hit it from outside and from inside. It may
 /// be flat. The texture coordinates of each face run from 0 to 1.

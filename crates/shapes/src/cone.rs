@@ -6,7 +6,8 @@ use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
 use crate::plane::across;
-use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from, slack, unrounded};
+use crate::rounding::{slack, unrounded};
+use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from};
 
 /// A cone, whole or cut off, open at its ends; rays hit it from outside and from inside.
 /// Texture coordinates are the angle in turns and the height from 0 at the base to 1 at

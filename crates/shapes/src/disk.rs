@@ -8,8 +8,9 @@ use nestray_core::surface::Surface;
 
 use crate::plane::across;
 use crate::polygon::{crosses, flat_error};
+use crate::rounding::{slack, unrounded};
 use crate::shadow::{self, Images};
-use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from, slack, unrounded};
+use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from};
 
 /// A flat disk. Texture coordinates are the angle around the centre, in turns, and the
 /// distance from it, in radii.

@@ -23,6 +23,8 @@ pub mod polygon;
 
 pub mod patch;
 
+mod rounding;
+
 mod outline;
 
 mod shadow;

@@ -8,8 +8,9 @@ use nestray_core::surface::Surface;
 
 use crate::outline::pass;
 use crate::polygon::{crosses, flat_error};
+use crate::rounding::slack;
 use crate::shadow::{self, Images};
-use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from, slack};
+use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from};
 
 /// A parallelogram: a corner and the two edges from it. Its front is where `u × v` points.
 /// A crossing has its place along the edges, from 0 to 1, as surface coordinates.

@@ -7,8 +7,9 @@ use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
 use crate::polygon::{crosses, flat_error};
+use crate::rounding::{slack, unrounded};
 use crate::shadow::{self, Images};
-use crate::shape::{Crossing, NOWHERE, Shape, interval_from, slack, unrounded};
+use crate::shape::{Crossing, NOWHERE, Shape, interval_from};
 
 /// A plane without end; its bounds are endless. Texture coordinates are lengths from
 /// [`point`](Self::point).

@@ -9,8 +9,9 @@ use nestray_core::ray::{Ray, RayKind};
 use nestray_core::surface::Surface;
 
 use crate::outline::pass;
+use crate::rounding::slack;
 use crate::shadow::{self, Images};
-use crate::shape::{Crossing, NOWHERE, Shape, interval_from, slack};
+use crate::shape::{Crossing, NOWHERE, Shape, interval_from};
 
 /// A polygon with any number of vertices, which may be concave. Polygons that share vertices
 /// leave no gap between them.
@@ -84,14 +85,14 @@ impl Polygon {
     }
 
     /// Whether all these points of its plane, and so their hull, see the whole outline from
-    /// inside.
-    fn surround(&self, points: &[DVec3]) -> bool {
+    /// inside, with some room.
+    fn surround(&self, points: &[DVec3], room: f64) -> bool {
         let n = self.vertices.len();
         let size = points.iter().fold(DVec3::ZERO, |size, p| size.max(p.abs())).max_element();
         (0..n).all(|i| {
             let (a, b) = (place(self.vertices[i]), place(self.vertices[(i + 1) % n]));
             let inward = self.normal.cross(b - a);
-            let room = slack(size as f32) * inward.length();
+            let room = (slack(size as f32) + room) * inward.length();
             points.iter().all(|&point| inward.dot(point - a) >= room)
         })
     }
@@ -140,13 +141,15 @@ impl Shape for Polygon {
             return None;
         }
         let images = Images::new(beam, place(self.vertices[0]), self.normal)?;
-        if !self.surround(&images.points) {
+        // What is not quite in a plane is seen elsewhere at a slant.
+        let depth = (self.slab[1] - self.slab[0]) * images.lean;
+        if !self.surround(&images.points, depth) {
             return None;
         }
         // Where an outline runs round twice there is a hole.
         let origin = beam.origin.corner(0);
         let ray = Ray::new(origin, images.points[0].as_vec3a() - origin, RayKind::Custom(0));
-        self.pass(&ray).and_then(|_| shadow::beyond(images.farthest))
+        self.pass(&ray).and_then(|_| shadow::beyond(images.farthest + depth))
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use glam::DVec3;
 use nestray_core::aabb::Aabb;
 use nestray_core::beam::{Beam, Facing};
 
-use crate::shape::slack;
+use crate::rounding::slack;
 
 /// Which side a plane with this unit normal shows. A hair of doubt is left to rays that are
 /// in the beam up to rounding.
@@ -38,6 +38,8 @@ pub(crate) struct Images {
     pub(crate) points: [DVec3; 32],
     /// The greatest distance to one of them along the main axis.
     pub(crate) farthest: f64,
+    /// How far a point moves along a ray, at most, when the plane is moved by one.
+    pub(crate) lean: f64,
 }
 
 impl Images {
@@ -47,8 +49,9 @@ impl Images {
             return None;
         }
         let reach = beam.origin.reach().max(point.abs().max_element() as f32);
-        let mut images = Self { points: [DVec3::ZERO; 32], farthest: 0.0 };
+        let mut images = Self { points: [DVec3::ZERO; 32], farthest: 0.0, lean: 0.0 };
         for (i, dir) in directions(beam).into_iter().enumerate() {
+            images.lean = images.lean.max(dir.length() / normal.dot(dir).abs());
             for corner in 0..8 {
                 let origin = beam.origin.corner(corner).as_dvec3();
                 let s = normal.dot(point - origin) / normal.dot(dir);

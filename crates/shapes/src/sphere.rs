@@ -6,8 +6,9 @@ use nestray_core::beam::Beam;
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
+use crate::rounding::{slack, unrounded};
 use crate::shadow::{Section, beyond};
-use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from, slack, unrounded};
+use crate::shape::{Crossing, NOWHERE, Shape, bounds_from, interval_from};
 
 /// A sphere; rays hit it from outside and from inside. Texture coordinates are the angle
 /// around the z axis, in turns, and the angle from the top, in half turns.

@@ -1,0 +1,12 @@
+//! What every single shape promises, tried on random ones of each kind.
+
+mod areas;
+mod beams;
+mod broken;
+mod gaps;
+mod hits;
+mod leaving;
+mod numbers;
+mod places;
+mod reference;
+mod samples;
