@@ -15,7 +15,8 @@ pub fn assert_equal(oracle: &dyn Object, nest: &dyn Object, rays: &[Ray], what: 
     let mut scratch = Scratch::new();
     let mut hits = Vec::with_capacity(rays.len());
     for (i, ray) in rays.iter().enumerate() {
-        let (expected, found) = (closest(oracle, ray, &mut scratch), closest(nest, ray, &mut scratch));
+        let (expected, found) =
+            (closest(oracle, ray, &mut scratch), closest(nest, ray, &mut scratch));
         assert!(same(&expected, &found), "{what}, ray {i}: {expected:?} but {found:?} for {ray:?}");
         let any = nest.any_hit(ray, &mut scratch);
         assert_eq!(any, expected.is_some(), "{what}, any hit of ray {i}: {expected:?} for {ray:?}");
@@ -40,8 +41,15 @@ fn assert_batches(nest: &dyn Object, rays: &[Ray], expected: &[Hit], level: Leve
     for (i, expected) in expected.iter().enumerate() {
         let ray = &rays[i];
         let found = &hits[i];
-        assert!(same(expected, found), "{what}, batch on {level:?}, ray {i}: {expected:?} but {found:?} for {ray:?}");
-        assert_eq!(blocked[i], expected.is_some(), "{what}, any hits on {level:?}, ray {i}: {ray:?}");
+        assert!(
+            same(expected, found),
+            "{what}, batch on {level:?}, ray {i}: {expected:?} but {found:?} for {ray:?}"
+        );
+        assert_eq!(
+            blocked[i],
+            expected.is_some(),
+            "{what}, any hits on {level:?}, ray {i}: {ray:?}"
+        );
     }
     for (i, ray) in rays.iter().enumerate().step_by(7) {
         let found = closest(nest, ray, &mut scratch);

@@ -116,7 +116,11 @@ fn connected(numbers: &mut Numbers, n: usize) -> World {
             [[a, b, c], [b, d, c]]
         })
         .collect();
-    mesh("connected triangles", Triangles::new(positions, faces).expect("indices in range"), Sides::Both)
+    mesh(
+        "connected triangles",
+        Triangles::new(positions, faces).expect("indices in range"),
+        Sides::Both,
+    )
 }
 
 /// Triangles of their own, some flat, some slivers, some of no area at all.
@@ -141,7 +145,8 @@ fn soup(numbers: &mut Numbers, count: usize) -> World {
 }
 
 fn mesh(name: &'static str, triangles: Triangles, sides: Sides) -> World {
-    let mut aims: Vec<Vec3A> = triangles.positions().iter().map(|&p| Vec3A::from_array(p)).collect();
+    let mut aims: Vec<Vec3A> =
+        triangles.positions().iter().map(|&p| Vec3A::from_array(p)).collect();
     for triangle in 0..triangles.count() {
         let [a, b, c] = triangles.corners(triangle).map(Vec3A::from_array);
         aims.extend([(a + b) * 0.5, (b + c) * 0.5, a * 0.75 + c * 0.25]);

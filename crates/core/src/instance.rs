@@ -62,14 +62,14 @@ impl<O: Object> Instance<O> {
     /// their `t`. An object flattened by a singular transform is never hit.
     #[must_use]
     pub fn new(number: u32, object: O, world_from_object: Affine3A) -> Self {
-        Self::placed(number, object, Still::new(world_from_object))
+        Self::with_motion(number, object, Still::new(world_from_object))
     }
 }
 
 impl<O: Object, M: Motion> Placed<O, M> {
     /// Places `object` as `motion` says.
     #[must_use]
-    pub fn placed(number: u32, object: O, motion: M) -> Self {
+    pub fn with_motion(number: u32, object: O, motion: M) -> Self {
         debug_assert!(number > 0, "0 stands for no instance");
         let bounds = motion.sweep(object.bounds(), [0.0, 1.0]);
         let bounds = if bounds.is_empty() { Aabb::EMPTY } else { bounds.padded() };

@@ -97,7 +97,7 @@ impl<O: Object> Moving<O> {
     /// [`Instance::new`]: crate::instance::Instance::new
     #[must_use]
     pub fn new(number: u32, object: O, keys: Keys) -> Self {
-        Self::placed(number, object, keys)
+        Self::with_motion(number, object, keys)
     }
 }
 

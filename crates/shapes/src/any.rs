@@ -1,8 +1,11 @@
 //! Any single shape, as one type: so that a list of mixed shapes needs no box for each.
 
+use std::sync::Arc;
+
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::beam::{Beam, Facing};
+use nestray_core::object::DynObject;
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
@@ -14,7 +17,7 @@ use crate::parallelogram::Parallelogram;
 use crate::patch::Patch;
 use crate::plane::Plane;
 use crate::polygon::Polygon;
-use crate::shape::{Crossing, Shape};
+use crate::shape::{Crossing, Shape, Sides, Single};
 use crate::sphere::Sphere;
 
 /// Passes every question on to the shape inside.
@@ -31,6 +34,16 @@ macro_rules! any_shape {
                 Self::$name(shape)
             }
         })+
+
+        impl AnyShape {
+            /// The shape as an object of its own, as small as the shape is.
+            #[must_use]
+            pub fn into_object(self, geometry: u32, primitive: u32, sides: Sides) -> DynObject {
+                match self {
+                    $(Self::$name(shape) => Arc::new(Single { geometry, primitive, sides, shape }),)+
+                }
+            }
+        }
 
         impl Shape for AnyShape {
             fn kind(&self) -> &'static str {

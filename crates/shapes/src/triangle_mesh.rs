@@ -96,11 +96,9 @@ impl<L: Layout> Mesh<L> {
 
     /// The blocks of a leaf.
     fn chain(&self, leaf: Leaf) -> impl Iterator<Item = Leaf> + '_ {
-        std::iter::successors(Some(leaf), |&block| {
-            match self.blocks[L::place(block)][7] {
-                layout::LAST => None,
-                next => Some(Leaf(next)),
-            }
+        std::iter::successors(Some(leaf), |&block| match self.blocks[L::place(block)][7] {
+            layout::LAST => None,
+            next => Some(Leaf(next)),
         })
     }
 

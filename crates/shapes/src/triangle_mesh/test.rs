@@ -102,6 +102,9 @@ impl<S: Simd> Hits<S> {
     }
 }
 
+/// Twice the area, seen along the ray, that a triangle must have: less has no inverse.
+const LEAST: f32 = 1e-37;
+
 /// Tests the triangles of a block; `primitive` says which one is in a lane.
 #[inline(always)]
 pub(super) fn hits<S: Simd, L: Layout>(
@@ -133,6 +136,8 @@ pub(super) fn hits<S: Simd, L: Layout>(
     }
     let [u, v, w] = edges;
     let sum = simd.add(simd.add(u, v), w);
+    // A triangle seen exactly from its side has no hit, and no weights.
+    mask &= !(simd.le(simd.splat(-LEAST), sum) & simd.le(sum, simd.splat(LEAST)));
     if *sides != Sides::Both {
         // The sum is twice the area, positive where the corners run clockwise along z.
         let front = if shear.slope[2] > 0.0 { simd.le(zero, sum) } else { simd.le(sum, zero) };
@@ -141,10 +146,11 @@ pub(super) fn hits<S: Simd, L: Layout>(
     let depths = L::depths(simd, block);
     let inverse = simd.div(simd.splat(1.0), sum);
     // Weights first: they are at most 1, so that the sum lies between the depths, and nothing
-    // overflows. NaN, and so no hit, for a triangle seen exactly from its side.
+    // overflows.
     let weights = [simd.mul(u, inverse), simd.mul(v, inverse), simd.mul(w, inverse)];
     let sum = simd.add(simd.mul(weights[0], depths[0]), simd.mul(weights[1], depths[1]));
-    let depth = within_bounds(simd, shear, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
+    let depth =
+        within_bounds(simd, shear, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
     let t = simd.mul(depth, simd.splat(shear.slope[2]));
     mask &= simd.le(simd.splat(shear.t_min), t) & simd.le(t, simd.splat(limit));
     if *skip != Hit::NOTHING {

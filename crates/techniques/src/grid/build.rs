@@ -19,12 +19,15 @@ pub(super) fn build(params: &GridParams, family: &dyn Family, leaves: &mut Leave
     let bounds = thickened(bounds);
     let weights: Vec<f32> = (0..family.count()).map(|child| family.weight(child)).collect();
     let cells = resolution(params, bounds, &boxes, &weights, family.together());
-    let cell_size = bounds.size() / Vec3A::from_array(cells.map(|n| n as f32));
+    let count = Vec3A::from_array(cells.map(|n| n as f32));
+    let pad = (bounds.size() / count * PAD).max(Vec3A::splat(2.0 * Clip::SLACK * bounds.reach()));
+    // Walls are crossed early: also the outermost must not be, before the last child is.
+    let bounds = Aabb { min: bounds.min - pad, max: bounds.max + pad };
     let mut grid = GridIndex {
         bounds,
         cells,
-        cell_size,
-        pad: (cell_size * PAD).max(Vec3A::splat(2.0 * Clip::SLACK * bounds.reach())),
+        cell_size: bounds.size() / count,
+        pad,
         words: Huge::default(),
         wide: None,
         spans: Vec::new(),
