@@ -103,9 +103,9 @@ impl Blend for Quat {
         (a * weight(1.0 - part) + b * weight(part)).normalize()
     }
     fn sum(terms: [(f32, Self); 4]) -> Self {
-        let sum = terms
-            .iter()
-            .fold(Self::from_xyzw(0.0, 0.0, 0.0, 0.0), |sum, (weight, value)| sum + *value * *weight);
+        let sum = terms.iter().fold(Self::from_xyzw(0.0, 0.0, 0.0, 0.0), |sum, (weight, value)| {
+            sum + *value * *weight
+        });
         if sum.length_squared() > 0.0 { sum.normalize() } else { Self::IDENTITY }
     }
 }
@@ -181,8 +181,7 @@ impl Animation {
                 && node.rotation.keys.is_empty()
                 && node.scale.keys.is_empty())
         };
-        std::iter::successors(Some(node), |&n| self.nodes[n].parent)
-            .any(|n| moves(&self.nodes[n]))
+        std::iter::successors(Some(node), |&n| self.nodes[n].parent).any(|n| moves(&self.nodes[n]))
     }
 }
 

@@ -102,9 +102,7 @@ impl Camera {
         let right = forward.cross(self.up).normalize_or(forward.any_orthonormal_vector());
         let up = right.cross(forward);
         let (half, parallel) = match self.projection {
-            Projection::Perspective { degrees } => {
-                (libm::tanf(degrees.to_radians() / 2.0), false)
-            }
+            Projection::Perspective { degrees } => (libm::tanf(degrees.to_radians() / 2.0), false),
             Projection::Orthographic { height } => (height / 2.0, true),
         };
         View {

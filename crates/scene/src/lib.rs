@@ -23,3 +23,5 @@ pub mod light;
 pub mod camera;
 
 pub mod picture;
+
+pub mod procedural;

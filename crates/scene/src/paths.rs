@@ -57,7 +57,11 @@ impl Paths {
             .iter()
             .map(|group| group.places.iter().map(|place| place.group).collect())
             .collect();
-        let mut count = Count { groups: &groups, numbers: vec![Vec::new(); groups.len()], paths: vec![State::Unknown; groups.len()] };
+        let mut count = Count {
+            groups: &groups,
+            numbers: vec![Vec::new(); groups.len()],
+            paths: vec![State::Unknown; groups.len()],
+        };
         for group in 0..groups.len() {
             count.group(group, 0)?;
         }

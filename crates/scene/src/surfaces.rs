@@ -66,31 +66,28 @@ impl<'a> Surfaces<'a> {
                 (triangles.surface(hit.primitive, uv), triangles.color(hit.primitive, uv))
             }
             Content::Shapes(shapes) => {
-                let inside = places.iter().fold(*ray, |ray, (to_from, _)| {
-                    ray.entering(to_from, 1, 1)
-                });
+                let inside =
+                    places.iter().fold(*ray, |ray, (to_from, _)| ray.entering(to_from, 1, 1));
                 let single = Single::new(hit.geometry, &shapes[hit.primitive as usize]);
                 let hit = Hit { primitive: 0, path: InstancePath::NONE, ..*hit };
                 (single.surface(&inside, &hit).expect("the hit is of it"), None)
             }
         };
-        let surface = places.iter().rev().fold(surface, |surface, (_, from_to)| {
-            surface.transformed(from_to)
-        });
+        let surface =
+            places.iter().rev().fold(surface, |surface, (_, from_to)| surface.transformed(from_to));
         Point { surface, material: geometry.material, color: color.unwrap_or([1.0; 4]) }
     }
 
     /// Into and out of each place on a path, outermost first.
     fn places(&self, path: InstancePath, time: f32) -> Vec<(Affine3A, Affine3A)> {
-        let place = |(group, place): (usize, usize)| {
-            match &self.scene.groups[group].places[place].motion {
+        let place =
+            |(group, place): (usize, usize)| match &self.scene.groups[group].places[place].motion {
                 Motion::Still(at) => both(&Still::new(*at), time),
                 Motion::Keys(keys) => both(keys, time),
                 Motion::Node(node) => {
                     both(&Still::new(self.scene.animation.world_from_node(*node, 0.0)), time)
                 }
-            }
-        };
+            };
         self.paths.places(path).into_iter().map(place).collect()
     }
 }

@@ -75,7 +75,8 @@ impl Texture {
     pub fn sample(&self, [u, v]: [f32; 2]) -> [f32; 4] {
         let (sine, cosine) = (libm::sinf(self.rotation), libm::cosf(self.rotation));
         let (u, v) = (u * self.scale[0], v * self.scale[1]);
-        let (u, v) = (cosine * u + sine * v + self.offset[0], cosine * v - sine * u + self.offset[1]);
+        let (u, v) =
+            (cosine * u + sine * v + self.offset[0], cosine * v - sine * u + self.offset[1]);
         let (width, height) = (self.image.width, self.image.height);
         let (x, y) = (u * width as f32, v * height as f32);
         if !(x.is_finite() && y.is_finite()) {
@@ -92,9 +93,8 @@ impl Texture {
         let (a, b) = (x - left, y - top);
         let [p, q] = [pixel(left, top), pixel(left + 1.0, top)];
         let [r, s] = [pixel(left, top + 1.0), pixel(left + 1.0, top + 1.0)];
-        [0, 1, 2, 3].map(|i| {
-            (p[i] * (1.0 - a) + q[i] * a) * (1.0 - b) + (r[i] * (1.0 - a) + s[i] * a) * b
-        })
+        [0, 1, 2, 3]
+            .map(|i| (p[i] * (1.0 - a) + q[i] * a) * (1.0 - b) + (r[i] * (1.0 - a) + s[i] * a) * b)
     }
 }
 
@@ -127,7 +127,12 @@ impl Image {
         match &self.pixels {
             Pixels::Srgb(pixels) => {
                 let [r, g, b, a] = pixels[at];
-                [linear_from_srgb(unit(r)), linear_from_srgb(unit(g)), linear_from_srgb(unit(b)), unit(a)]
+                [
+                    linear_from_srgb(unit(r)),
+                    linear_from_srgb(unit(g)),
+                    linear_from_srgb(unit(b)),
+                    unit(a),
+                ]
             }
             Pixels::Linear(pixels) => pixels[at].map(unit),
             Pixels::Float(pixels) => {

@@ -1,0 +1,112 @@
+//! One of every kind of shape, again and again, on a plane without end.
+
+use glam::{DVec3, Vec3A};
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::block::Block;
+use nestray_shapes::cone::Cone;
+use nestray_shapes::cylinder::Cylinder;
+use nestray_shapes::disk::Disk;
+use nestray_shapes::parallelogram::Parallelogram;
+use nestray_shapes::patch::Patch;
+use nestray_shapes::plane::Plane;
+use nestray_shapes::polygon::Polygon;
+use nestray_shapes::sphere::Sphere;
+
+use super::look::{camera, glass, matte, metal, outdoors, paint};
+use super::mesh::Mesh;
+use crate::geometry::Geometry;
+use crate::material::Material;
+use crate::scene::Scene;
+
+/// Kinds of bounded single shapes.
+const KINDS: u64 = 8;
+
+/// Triangles of each mesh.
+const MESH: u64 = 12;
+
+/// Primitives of all copies, and the plane.
+pub(super) fn count(size: u32) -> u64 {
+    (KINDS + MESH) * u64::from(size).pow(2) + 1
+}
+
+pub(super) fn build(size: u32) -> Scene {
+    let mut scene = outdoors();
+    let ground = scene.add_material(matte("ground", [0.4, 0.38, 0.34]));
+    let plane = Plane { point: Vec3A::ZERO, normal: Vec3A::Z };
+    scene.add(Geometry::shapes("plane", ground, vec![plane.into()]));
+    let copies: Vec<Vec3A> = (0..size * size)
+        .map(|i| {
+            let place = |i: u32| (i as f32 - (size - 1) as f32 / 2.0) * 9.0;
+            Vec3A::new(place(i % size), place(i / size), 0.0)
+        })
+        .collect();
+    for (kind, (name, material, shape)) in kinds().into_iter().enumerate() {
+        let material = scene.add_material(Material { name: name.into(), ..material });
+        let shapes = copies.iter().map(|&at| shape(at + cell(kind))).collect();
+        scene.add(Geometry::shapes(name, material, shapes));
+    }
+    let brick = scene.add_material(matte("mesh", [0.5, 0.2, 0.12]));
+    let mut mesh = Mesh::default();
+    for &at in &copies {
+        let middle = (at + cell(KINDS as usize)).as_dvec3() + DVec3::Z * 0.7;
+        mesh.cuboid(glam::DAffine3::from_mat3_translation(
+            super::standard::rotation(DVec3::new(0.6, 0.0, 0.8), 0.8),
+            middle,
+        ));
+    }
+    scene.add(Geometry::mesh("mesh", brick, mesh.finish()));
+    let reach = 9.0 * f64::from(size);
+    let from = DVec3::new(-0.3, -1.0, 0.75) * reach;
+    scene.cameras.push(camera("whole", from, DVec3::ZERO, 40.0));
+    scene
+}
+
+/// Where a kind stands within a copy.
+fn cell(kind: usize) -> Vec3A {
+    Vec3A::new((kind % 4) as f32 * 2.2 - 3.3, (kind / 4) as f32 * 2.4 - 2.4, 0.0)
+}
+
+/// A name, a material, and the shape about a point of the ground.
+type Kind = (&'static str, Material, fn(Vec3A) -> AnyShape);
+
+fn kinds() -> [Kind; KINDS as usize] {
+    [
+        ("sphere", glass("", [1.0; 3]), |at| Sphere { center: at + Vec3A::Z, radius: 0.8 }.into()),
+        ("cone", paint("", [0.7, 0.3, 0.05], 0.4), |at| {
+            let apex = at + Vec3A::new(0.2, 0.1, 1.9);
+            Cone { base: at, base_radius: 0.8, apex, apex_radius: 0.15 }.into()
+        }),
+        ("cylinder", metal("", [0.6, 0.6, 0.65], 0.2), |at| {
+            let top = at + Vec3A::new(0.3, -0.2, 1.6);
+            Cylinder { base: at, top, radius: 0.6 }.into()
+        }),
+        ("disk", paint("", [0.1, 0.4, 0.15], 0.5), |at| {
+            let normal = Vec3A::new(0.2, -0.7, 0.5);
+            Disk { center: at + Vec3A::Z * 0.8, normal, radius: 0.8 }.into()
+        }),
+        ("parallelogram", metal("", [0.95, 0.7, 0.4], 0.05), |at| {
+            let (u, v) = (Vec3A::new(1.4, 0.3, 0.1), Vec3A::new(0.2, 0.5, 1.4));
+            Parallelogram { corner: at - Vec3A::X * 0.7, u, v }.into()
+        }),
+        ("block", paint("", [0.15, 0.2, 0.55], 0.3), |at| {
+            Block::between(at - Vec3A::new(0.6, 0.5, 0.0), at + Vec3A::new(0.6, 0.5, 1.2)).into()
+        }),
+        ("polygon", matte("", [0.65, 0.6, 0.2]), |at| {
+            // A star.
+            let corner = |i: u32| {
+                let angle = f64::from(i) * std::f64::consts::TAU / 10.0;
+                let away = if i % 2 == 0 { 0.9 } else { 0.38 };
+                let (x, z) = (away * libm::sin(angle), away * libm::cos(angle));
+                (at.as_dvec3() + DVec3::new(x, 0.35 * x, 0.9 - z)).as_vec3().to_array()
+            };
+            Polygon::new((0..10).map(corner).collect::<Vec<_>>()).into()
+        }),
+        ("patch", paint("", [0.6, 0.1, 0.3], 0.2), |at| {
+            let corner = |x: f32, z: f32| {
+                let normal = Vec3A::new(x, -1.0, 0.6 * z - 0.5).normalize();
+                ((at + Vec3A::new(x, 0.2 * x, z)).to_array(), normal.to_array())
+            };
+            Patch::new(&[corner(-0.8, 0.1), corner(0.8, 0.1), corner(0.0, 1.6)]).into()
+        }),
+    ]
+}

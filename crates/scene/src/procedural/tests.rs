@@ -1,0 +1,6 @@
+//! What the scenes must be like.
+
+mod known;
+mod list;
+mod nff;
+mod ours;

@@ -1,0 +1,104 @@
+//! Our own scenes.
+
+use nestray_shapes::any::AnyShape;
+
+use crate::geometry::Content;
+use crate::group::Motion;
+use crate::procedural::generate;
+use crate::scene::Scene;
+
+/// A number that changes with any bit of any place in a scene [Fowler 91].
+fn fingerprint(scene: &Scene) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut mix = |numbers: &[f32]| {
+        for x in numbers {
+            hash = (hash ^ u64::from(x.to_bits())).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    for geometry in &scene.geometries {
+        match &geometry.content {
+            Content::Mesh(mesh) => {
+                mix(mesh.positions().as_flattened());
+                mix(mesh.normals().as_flattened());
+                mix(mesh.colors().as_flattened());
+            }
+            Content::Shapes(shapes) => shapes.iter().for_each(|shape| match shape {
+                AnyShape::Sphere(ball) => mix(&[ball.center.x, ball.center.y, ball.radius]),
+                AnyShape::Cone(cone) => mix(&cone.apex.to_array()),
+                AnyShape::Cylinder(bar) => mix(&bar.top.to_array()),
+                AnyShape::Polygon(polygon) => mix(polygon.vertices().as_flattened()),
+                AnyShape::Patch(patch) => mix(patch.normals().as_flattened()),
+                _ => {}
+            }),
+        }
+    }
+    for place in scene.groups.iter().flat_map(|group| &group.places) {
+        let Motion::Still(place) = &place.motion else { panic!("nothing moves") };
+        mix(&place.to_cols_array());
+    }
+    hash
+}
+
+#[test]
+fn scenes_are_the_same_on_every_machine() {
+    let known: [(&str, u32, u64); 0] = [];
+    for (name, size, known) in known {
+        let found = fingerprint(&generate(name, Some(size)).unwrap());
+        assert_eq!(found, known, "{name} at {size} is {found:#018x}");
+    }
+}
+
+#[test]
+fn the_forest_is_one_tree_in_ten_thousand_places() {
+    let scene = generate("forest", None).unwrap();
+    assert_eq!(scene.groups[scene.root].places.len(), 10_000);
+    assert_eq!(scene.geometries.len(), 3);
+    let tree: u32 = scene.geometries[1..].iter().map(|part| part.primitives()).sum();
+    assert!((58_000..62_000).contains(&tree), "{tree} triangles");
+    let ground = u64::from(scene.geometries[0].primitives());
+    assert_eq!(scene.primitives(), 10_000 * u64::from(tree) + ground);
+}
+
+#[test]
+fn the_stadium_is_as_many_teapots_long_as_asked() {
+    for size in [10, 1000, 100_000] {
+        let scene = generate("stadium", Some(size)).unwrap();
+        let places = &scene.groups[scene.root].places;
+        assert!((9_000..13_000).contains(&places.len()), "{} places", places.len());
+        let teapot = places.last().unwrap();
+        let bounds = scene.geometries[scene.groups[teapot.group].geometries[0]].bounds();
+        let bounds = scene.sweep(&teapot.motion, bounds);
+        let ratio = 200.0 / (bounds.max - bounds.min).x;
+        assert!((ratio / size as f32 - 1.0).abs() < 0.01, "{ratio} for {size}");
+    }
+}
+
+#[test]
+fn chairs_are_instances_that_stand_within_the_stadium() {
+    let scene = generate("stadium", None).unwrap();
+    for place in &scene.groups[scene.root].places {
+        let Motion::Still(at) = &place.motion else { panic!("chairs stand still") };
+        let [x, y, z] = at.translation.to_array();
+        let ellipse = (x / 100.0) * (x / 100.0) + (y / 75.0) * (y / 75.0);
+        assert!(ellipse <= 1.0 && (0.0..=40.5).contains(&z), "{x} {y} {z}");
+    }
+}
+
+#[test]
+fn the_demo_has_instances_within_instances() {
+    let scene = generate("demo", None).unwrap();
+    let stored: u64 = scene.geometries.iter().map(|g| u64::from(g.primitives())).sum();
+    assert!(scene.primitives() > 100 * stored, "most of it is instances");
+    let nested = |place: &crate::group::Place| !scene.groups[place.group].places.is_empty();
+    assert!(scene.groups[scene.root].places.iter().any(nested));
+    assert!(scene.materials.iter().any(|material| material.glows()));
+    assert!(scene.materials.iter().any(|material| material.transmission > 0.0));
+    assert!(scene.materials.iter().any(|material| material.metallic > 0.0));
+}
+
+#[test]
+fn a_terrain_of_usual_size_has_a_million_triangles() {
+    let scene = generate("terrain", None).unwrap();
+    assert_eq!(scene.primitives(), 1_002_528);
+    assert_eq!(generate("scatter", None).unwrap().primitives(), 1_000_000);
+}
