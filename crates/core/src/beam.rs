@@ -135,10 +135,10 @@ mod tests {
         Beam {
             origin: numbers.aabb(1.0),
             axis: case % 3,
-            backward: case % 2 == 1,
+            backward: !case.is_multiple_of(2),
             u: numbers.slopes(),
             v: numbers.slopes(),
-            farthest: if case % 5 == 0 { numbers.between(0.5, 4.0) } else { f32::INFINITY },
+            farthest: if case.is_multiple_of(5) { numbers.between(0.5, 4.0) } else { f32::INFINITY },
         }
     }
 

@@ -1,0 +1,194 @@
+//! Random nests, to any depth, and the same world as nested lists.
+
+use std::sync::Arc;
+
+use glam::{Affine3A, Vec3A};
+use nestray_core::by_kind::{ByKind, Case};
+use nestray_core::instance::Instance;
+use nestray_core::lazy::Lazy;
+use nestray_core::moving::{Keys, Moving};
+use nestray_core::object::{DynObject, Object};
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::shape::{Sides, Single};
+use nestray_shapes::sphere::Sphere;
+use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
+use nestray_techniques::registry::{Entry, Members, TECHNIQUES, find};
+use serde_json::Value;
+
+use crate::numbers::Numbers;
+
+/// A world, whatever nest it is put in.
+#[derive(Debug)]
+pub struct Spec {
+    parts: Vec<Part>,
+    /// Groups that may stand in many places.
+    shared: Vec<Vec<Part>>,
+}
+
+#[derive(Debug)]
+enum Part {
+    Shapes(u32, Vec<Sphere>),
+    Mesh(u32, Arc<Triangles>),
+    /// Several parts as one child.
+    Group(Vec<Part>),
+    /// A shared group, at one place or moving through several.
+    Placed(Vec<Affine3A>, usize),
+}
+
+/// How a [`Spec`] is made into an object.
+#[derive(Clone, Debug)]
+pub enum Way {
+    /// Lists, and nothing else: exhaustive search.
+    Lists,
+    /// Any technique anywhere, by these numbers; some parts by kind of ray, some lazy.
+    Nested(Numbers),
+}
+
+impl Spec {
+    /// A world whose groups go `depth` deep.
+    #[must_use]
+    pub fn random(numbers: &mut Numbers, depth: usize) -> Self {
+        let mut spec = Self { parts: Vec::new(), shared: Vec::new() };
+        let mut geometry = 0;
+        for level in 0..depth.saturating_sub(1) {
+            // A shared group may hold those before it: no cycles.
+            let parts = parts(numbers, &mut geometry, level, level, 3);
+            spec.shared.push(parts);
+        }
+        spec.parts = parts(numbers, &mut geometry, depth - 1, spec.shared.len(), 6);
+        spec
+    }
+
+    /// The object, and the corners of its children.
+    #[must_use]
+    pub fn realise(&self, way: &mut Way) -> (DynObject, Vec<Vec3A>) {
+        let mut shared: Vec<DynObject> = Vec::new();
+        for parts in &self.shared {
+            let made = group(parts, &shared, way, &mut 1).0;
+            shared.push(made);
+        }
+        let (object, children) = group(&self.parts, &shared, way, &mut 1);
+        let aims = children
+            .iter()
+            .map(|child| child.bounds())
+            .filter(|bounds| bounds.is_bounded() && !bounds.is_empty())
+            .flat_map(|bounds| (0..8).map(move |i| bounds.corner(i)).chain([bounds.center()]))
+            .collect();
+        (object, aims)
+    }
+}
+
+fn parts(
+    numbers: &mut Numbers,
+    geometry: &mut u32,
+    depth: usize,
+    shared: usize,
+    most: usize,
+) -> Vec<Part> {
+    let count = 1 + numbers.below(most);
+    (0..count).map(|_| part(numbers, geometry, depth, shared)).collect()
+}
+
+fn part(numbers: &mut Numbers, geometry: &mut u32, depth: usize, shared: usize) -> Part {
+    *geometry += 1;
+    match numbers.below(6) {
+        0 if depth > 0 => Part::Group(parts(numbers, geometry, depth - 1, shared, 3)),
+        1..4 if shared > 0 => {
+            let keys = if numbers.once_in(4) { 2 } else { 1 };
+            let places = (0..keys).map(|_| numbers.place(0.7)).collect();
+            Part::Placed(places, numbers.below(shared))
+        }
+        4 => Part::Mesh(*geometry, Arc::new(triangles(numbers))),
+        _ => {
+            let count = 1 + numbers.below(8);
+            let radius = |numbers: &mut Numbers| numbers.between(0.02, 0.2);
+            let sphere =
+                |numbers: &mut Numbers| Sphere { center: numbers.point(), radius: radius(numbers) };
+            Part::Shapes(*geometry, (0..count).map(|_| sphere(numbers)).collect())
+        }
+    }
+}
+
+/// A strip on round numbers, or loose triangles.
+fn triangles(numbers: &mut Numbers) -> Triangles {
+    let count = 2 + numbers.below(12);
+    if numbers.once_in(2) {
+        let corner = |numbers: &mut Numbers, a: Vec3A| a + numbers.direction() * 0.3;
+        let corners: Vec<[Vec3A; 3]> = (0..count)
+            .map(|_| numbers.point())
+            .map(|a| [a, corner(numbers, a), corner(numbers, a)])
+            .collect();
+        return Triangles::from_corners(&corners);
+    }
+    let positions = (0..count + 2)
+        .map(|i| [i as f32 / 16.0, (i % 2) as f32 / 2.0, numbers.below(3) as f32 / 4.0])
+        .collect();
+    let faces = (0..count as u32).map(|i| [i, i + 1, i + 2]).collect();
+    Triangles::new(positions, faces).expect("indices in range")
+}
+
+/// The parts as one aggregate, and its children.
+fn group(
+    parts: &[Part],
+    shared: &[DynObject],
+    way: &mut Way,
+    number: &mut u32,
+) -> (DynObject, Vec<DynObject>) {
+    let children: Vec<DynObject> =
+        parts.iter().map(|part| object(part, shared, way, number)).collect();
+    (aggregate(Members::Objects(children.clone()), way), children)
+}
+
+fn object(part: &Part, shared: &[DynObject], way: &mut Way, number: &mut u32) -> DynObject {
+    match part {
+        Part::Shapes(geometry, spheres) => {
+            let single = |(primitive, &sphere)| Single {
+                geometry: *geometry,
+                primitive,
+                sides: Sides::Both,
+                shape: AnyShape::from(sphere),
+            };
+            aggregate(Members::Shapes((0..).zip(spheres).map(single).collect()), way)
+        }
+        Part::Mesh(geometry, triangles) => {
+            aggregate(Members::Triangles(TriangleMesh::new(*geometry, Arc::clone(triangles))), way)
+        }
+        Part::Group(parts) => group(parts, shared, way, number).0,
+        Part::Placed(places, which) => {
+            let inside = Arc::clone(&shared[*which]);
+            let first = *number;
+            *number += inside.paths();
+            match places[..] {
+                [place] => Arc::new(Instance::new(first, inside, place)),
+                _ => {
+                    let keys = (0..).zip(places).map(|(k, &place)| (k as f32, place)).collect();
+                    Arc::new(Moving::new(first, inside, Keys::new(keys).expect("times ascend")))
+                }
+            }
+        }
+    }
+}
+
+fn aggregate(members: Members, way: &mut Way) -> DynObject {
+    let Way::Nested(numbers) = way else {
+        return build(find("list").expect("there is a list"), members);
+    };
+    match numbers.below(8) {
+        0 => {
+            let cases = [Case::Camera, Case::Shadow(None), Case::Shadow(Some(3)), Case::Diffuse];
+            let mut any = || build(numbers.pick(TECHNIQUES), members.clone());
+            let cases = cases.map(|case| (case, any())).to_vec();
+            Arc::new(ByKind::new(cases, any()))
+        }
+        1 => {
+            let stand_in = build(find("list").expect("there is a list"), members.clone());
+            let entry = *numbers.pick(TECHNIQUES);
+            Arc::new(Lazy::new(stand_in, move || build(&entry, members.clone())))
+        }
+        _ => build(numbers.pick(TECHNIQUES), members),
+    }
+}
+
+fn build(entry: &Entry, members: Members) -> DynObject {
+    (entry.build)(&Value::Null, members).expect("defaults are in range")
+}
