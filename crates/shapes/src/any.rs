@@ -9,16 +9,20 @@ use nestray_core::object::DynObject;
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
+use crate::bezier::BezierPatch;
 use crate::block::Block;
 use crate::cone::Cone;
 use crate::cylinder::Cylinder;
 use crate::disk::Disk;
+use crate::height_field::HeightField;
 use crate::parallelogram::Parallelogram;
 use crate::patch::Patch;
 use crate::plane::Plane;
 use crate::polygon::Polygon;
+use crate::quadric::Quadric;
 use crate::shape::{Crossing, Shape, Sides, Single};
 use crate::sphere::Sphere;
+use crate::torus::Torus;
 
 /// Passes every question on to the shape inside.
 macro_rules! any_shape {
@@ -99,4 +103,18 @@ any_shape! {
     Polygon(Polygon),
     /// See [`Patch`].
     Patch(Patch),
+    /// See [`Torus`].
+    Torus(Torus),
+    /// See [`Quadric`].
+    Quadric(Quadric),
+    /// See [`BezierPatch`]; elsewhere, since it is so much larger than the others.
+    Bezier(Box<BezierPatch>),
+    /// See [`HeightField`].
+    HeightField(HeightField),
+}
+
+impl From<BezierPatch> for AnyShape {
+    fn from(patch: BezierPatch) -> Self {
+        Self::Bezier(Box::new(patch))
+    }
 }

@@ -29,6 +29,14 @@ mod outline;
 
 mod shadow;
 
+pub mod torus;
+
+pub mod quadric;
+
 pub mod bezier;
+
+pub mod height_field;
+
+pub mod csg;
 
 pub mod triangle_mesh;

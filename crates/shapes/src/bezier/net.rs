@@ -1,0 +1,120 @@
+//! A patch as a ray sees it: two coordinates that are zero where the ray passes.
+
+use glam::Vec3A;
+use nestray_core::ray::Ray;
+
+/// One coordinate of a net of control points, or of a part of one.
+pub(super) type Grid = [[f64; 4]; 4];
+
+/// A patch with the ray as its z axis: a shear, so that patches that share control points
+/// see the same numbers.
+pub(super) struct Net {
+    pub(super) x: Grid,
+    pub(super) y: Grid,
+    /// Parameters of the ray.
+    pub(super) t: Grid,
+    /// Whether `∂x/∂u ∂y/∂v − ∂x/∂v ∂y/∂u` is positive where the ray arrives at the back.
+    pub(super) along: bool,
+}
+
+/// Place, and derivatives by `u` and by `v`.
+#[derive(Clone, Copy)]
+pub(super) struct At {
+    pub(super) x: [f64; 3],
+    pub(super) y: [f64; 3],
+}
+
+impl Net {
+    #[inline]
+    pub(super) fn new(points: &[[Vec3A; 4]; 4], ray: &Ray) -> Self {
+        let (origin, dir) = (ray.origin().to_array(), ray.dir().to_array());
+        let size = dir.map(f32::abs);
+        let c = if size[0] > size[1] && size[0] > size[2] {
+            0
+        } else {
+            1 + usize::from(size[1] <= size[2])
+        };
+        let (a, b) = ((c + 1) % 3, (c + 2) % 3);
+        let [oa, ob, oc] = [a, b, c].map(|axis| f64::from(origin[axis]));
+        let inverse = 1.0 / f64::from(dir[c]);
+        let [sa, sb] = [a, b].map(|axis| f64::from(dir[axis]) * inverse);
+        let mut net =
+            Self { x: [[0.0; 4]; 4], y: [[0.0; 4]; 4], t: [[0.0; 4]; 4], along: dir[c] > 0.0 };
+        for i in 0..4 {
+            for j in 0..4 {
+                let point = points[i][j].to_array().map(f64::from);
+                let depth = point[c] - oc;
+                net.x[i][j] = (point[a] - oa) - sa * depth;
+                net.y[i][j] = (point[b] - ob) - sb * depth;
+                net.t[i][j] = depth * inverse;
+            }
+        }
+        net
+    }
+
+    /// Both coordinates at a place.
+    #[inline]
+    pub(super) fn at(&self, [u, v]: [f64; 2]) -> At {
+        let (u, v) = (Weights::new(u), Weights::new(v));
+        At { x: u.blend(&v, &self.x), y: u.blend(&v, &self.y) }
+    }
+
+    /// The parameter of the ray at a place.
+    pub(super) fn depth(&self, [u, v]: [f64; 2]) -> f64 {
+        Weights::new(u).blend(&Weights::new(v), &self.t)[0]
+    }
+}
+
+/// What each of four control points counts, for the place and for the derivative.
+pub(super) struct Weights {
+    pub(super) value: [f64; 4],
+    pub(super) slope: [f64; 4],
+}
+
+impl Weights {
+    #[inline]
+    pub(super) fn new(u: f64) -> Self {
+        let v = 1.0 - u;
+        let (uu, vv, uv) = (u * u, v * v, u * v);
+        Self {
+            value: [vv * v, 3.0 * (vv * u), 3.0 * (v * uu), uu * u],
+            slope: [-3.0 * vv, 3.0 * (vv - 2.0 * uv), 3.0 * (2.0 * uv - uu), 3.0 * uu],
+        }
+    }
+
+    /// Value and derivatives, with these weights across rows and `v` along them.
+    #[inline]
+    fn blend(&self, v: &Self, grid: &Grid) -> [f64; 3] {
+        let mut row = [0.0; 4];
+        let mut row_slope = [0.0; 4];
+        for i in 0..4 {
+            for j in 0..4 {
+                row[j] += self.value[i] * grid[i][j];
+                row_slope[j] += self.slope[i] * grid[i][j];
+            }
+        }
+        [dot(&row, &v.value), dot(&row_slope, &v.value), dot(&row, &v.slope)]
+    }
+}
+
+#[inline]
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
+}
+
+/// The lower and the upper half of a net by `u` [de Casteljau 59].
+#[inline]
+pub(super) fn halves(grid: &Grid) -> [Grid; 2] {
+    let middle = |a: &[f64; 4], b: &[f64; 4]| [0, 1, 2, 3].map(|j| (a[j] + b[j]) * 0.5);
+    let [a, b, c, d] = grid;
+    let (ab, bc, cd) = (middle(a, b), middle(b, c), middle(c, d));
+    let (abc, bcd) = (middle(&ab, &bc), middle(&bc, &cd));
+    let center = middle(&abc, &bcd);
+    [[*a, ab, abc, center], [center, bcd, cd, *d]]
+}
+
+/// The same net with `u` and `v` in each other's place.
+#[inline]
+pub(super) fn flipped(grid: &Grid) -> Grid {
+    [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| grid[j][i]))
+}

@@ -1,0 +1,4 @@
+//! Curved shapes against dense references in doubles.
+
+mod bezier;
+mod numbers;
