@@ -129,7 +129,9 @@ impl Shape for Block {
         // It goes in against the normal and out along it.
         let up = (ray.dir()[axis] > 0.0) != crossing.front;
         let point = ray.origin().as_dvec3() + ray.dir().as_dvec3() * t;
-        let mut position = point.clamp(min.as_dvec3(), max.as_dvec3()).as_vec3a();
+        // Off the neighbouring faces, so that a ray can leave inwards at an edge.
+        let (low, high) = (min.map(f32::next_up), max.map(f32::next_down));
+        let mut position = point.as_vec3a().max(low.min(max)).min(high.max(min));
         position[axis] = if up { max } else { min }[axis];
         let mut normal = Vec3A::ZERO;
         normal[axis] = if up { 1.0 } else { -1.0 };
