@@ -113,11 +113,11 @@ fn part(numbers: &mut Numbers, geometry: &mut u32, depth: usize, shared: usize) 
 fn triangles(numbers: &mut Numbers) -> Triangles {
     let count = 2 + numbers.below(12);
     if numbers.once_in(2) {
-        let corner = |numbers: &mut Numbers, a: Vec3A| a + numbers.direction() * 0.3;
-        let corners: Vec<[Vec3A; 3]> = (0..count)
-            .map(|_| numbers.point())
-            .map(|a| [a, corner(numbers, a), corner(numbers, a)])
-            .collect();
+        let mut corners = || {
+            let a = numbers.point();
+            [a, a + numbers.direction() * 0.3, a + numbers.direction() * 0.3]
+        };
+        let corners: Vec<[Vec3A; 3]> = (0..count).map(|_| corners()).collect();
         return Triangles::from_corners(&corners);
     }
     let positions = (0..count + 2)
@@ -177,8 +177,8 @@ fn aggregate(members: Members, way: &mut Way) -> DynObject {
         0 => {
             let cases = [Case::Camera, Case::Shadow(None), Case::Shadow(Some(3)), Case::Diffuse];
             let mut any = || build(numbers.pick(TECHNIQUES), members.clone());
-            let cases = cases.map(|case| (case, any())).to_vec();
-            Arc::new(ByKind::new(cases, any()))
+            let other = any();
+            Arc::new(ByKind::new(cases.map(|case| (case, any())).to_vec(), other))
         }
         1 => {
             let stand_in = build(find("list").expect("there is a list"), members.clone());
