@@ -121,6 +121,12 @@ impl HeightField {
         Self { relief, ..self }
     }
 
+    /// How it is shaded.
+    #[must_use]
+    pub fn relief(&self) -> Relief {
+        self.relief
+    }
+
     /// How many samples there are along x and along z.
     #[must_use]
     pub fn counts(&self) -> [usize; 2] {
