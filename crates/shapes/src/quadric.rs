@@ -6,7 +6,7 @@ use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 
 use crate::rounding::unrounded;
-use crate::shape::{Crossing, Shape, bounds_from};
+use crate::shape::{Crossing, Shape, bounds_from, interval_from};
 
 /// The points in a box where `a x² + b y² + c z² + d xy + e yz + f zx + g x + h y + i z + j`
 /// is zero. Its front is where that is positive.
@@ -112,28 +112,44 @@ impl Exact {
         self.matrix * point * 2.0 + self.linear
     }
 
-    /// Centre and half the edges of the box around an ellipsoid; none if it is not one, or
-    /// so long that doubles cannot tell.
-    fn ellipsoid(&self) -> Option<(DVec3, DVec3)> {
+    /// The ellipsoid that it is; none if it is not one, or so long that doubles cannot tell.
+    fn ellipsoid(&self) -> Option<Ellipsoid> {
         let m = &self.matrix;
         let sign = m.x_axis.x.signum();
         let minor = m.x_axis.x * m.y_axis.y - m.x_axis.y * m.y_axis.x;
         let (volume, size) =
             (m.determinant() * sign, (m.x_axis.x + m.y_axis.y + m.z_axis.z) * sign);
-        let round = volume / (size * size * size);
         // 1/27 for a sphere.
+        let round = volume / (size * size * size);
         if !(m.x_axis.x != 0.0 && minor > 0.0 && round > 1e-9) {
             return None;
         }
         let inverse = m.inverse();
         let center = inverse * self.linear * -0.5;
         let lift = self.linear.dot(center) / 2.0;
-        let rounding = (lift.abs() + self.constant.abs()) * 1e-15 / round;
+        let rounding = 1e-15 / round;
         // On the surface `(p − center) · matrix (p − center)` is this.
-        let level = -(self.constant + lift) * sign + rounding;
-        let width = DVec3::new(inverse.x_axis.x, inverse.y_axis.y, inverse.z_axis.z) * sign;
-        let half = (width * level.max(0.0)).map(f64::sqrt) * (1.0 + 1e-15 / round);
-        (level >= 0.0).then_some((center, half + center.abs() * 1e-15 / round))
+        let level = -(self.constant + lift) * sign + (lift.abs() + self.constant.abs()) * rounding;
+        let spread = inverse * (level.max(0.0) * sign * (1.0 + rounding));
+        (level >= 0.0).then_some(Ellipsoid { center, spread, rounding })
+    }
+}
+
+/// How far an ellipsoid reaches.
+struct Ellipsoid {
+    center: DVec3,
+    /// Along a direction it reaches `√(direction · spread direction)` from the centre.
+    spread: DMat3,
+    /// Relative to the centre and to the reach.
+    rounding: f64,
+}
+
+impl Ellipsoid {
+    fn along(&self, direction: DVec3) -> [f64; 2] {
+        let middle = self.center.dot(direction);
+        let reach = direction.dot(self.spread * direction).max(0.0).sqrt();
+        let half = reach + (reach + self.center.abs().dot(direction.abs())) * self.rounding;
+        [middle - half, middle + half]
     }
 }
 
@@ -144,13 +160,19 @@ impl Shape for Quadric {
 
     fn bounds(&self) -> Aabb {
         let Some(quadric) = self.exact() else { return Aabb::EMPTY };
-        match quadric.ellipsoid() {
-            Some((center, half)) => {
-                let own = bounds_from((center - half).to_array(), (center + half).to_array());
-                own.meet(self.clip)
-            }
-            None => self.clip,
-        }
+        let Some(ellipsoid) = quadric.ellipsoid() else { return self.clip };
+        let [x, y, z] = DVec3::AXES.map(|axis| ellipsoid.along(axis));
+        bounds_from([x[0], y[0], z[0]], [x[1], y[1], z[1]]).meet(self.clip)
+    }
+
+    fn along(&self, direction: Vec3A) -> [f32; 2] {
+        let boxed = self.bounds().along(direction);
+        let Some(ellipsoid) = self.exact().and_then(|quadric| quadric.ellipsoid()) else {
+            return boxed;
+        };
+        let [low, high] = ellipsoid.along(direction.as_dvec3());
+        let own = interval_from(low, high);
+        [own[0].max(boxed[0]), own[1].min(boxed[1])]
     }
 
     fn crossings(&self, ray: &Ray, mut found: impl FnMut(Crossing)) {

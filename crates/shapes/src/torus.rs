@@ -9,7 +9,7 @@ use nestray_core::surface::Surface;
 
 use self::quartic::Quartic;
 use crate::rounding::unrounded;
-use crate::shape::{Crossing, Shape, bounds_from};
+use crate::shape::{Crossing, Shape, bounds_from, interval_from};
 
 /// A torus: a tube around a circle; closed.
 ///
@@ -41,8 +41,10 @@ impl Torus {
         let sound = |radius: f32| radius > 0.0 && radius <= Ray::FARTHEST;
         let axis = self.axis.as_dvec3().try_normalize()?;
         let [major, minor] = [self.major, self.minor].map(f64::from);
-        (sound(self.major) && sound(self.minor) && self.center.abs().cmple(Vec3A::splat(Ray::FARTHEST)).all())
-            .then(|| Exact { center: self.center.as_dvec3(), axis, major, minor })
+        (sound(self.major)
+            && sound(self.minor)
+            && self.center.abs().cmple(Vec3A::splat(Ray::FARTHEST)).all())
+        .then(|| Exact { center: self.center.as_dvec3(), axis, major, minor })
     }
 
     /// Seen from the point of the line nearest the centre and with everything within reach
@@ -114,8 +116,7 @@ impl Shape for Torus {
         let middle = torus.center.dot(direction);
         let half = across.length() * torus.major + direction.length() * torus.minor;
         let slack = (half + torus.center.abs().dot(direction.abs())) * 1e-14;
-        let [low, high] = [middle - half - slack, middle + half + slack].map(|x| x as f32);
-        [low.next_down(), high.next_up()]
+        interval_from(middle - half - slack, middle + half + slack)
     }
 
     /// The outer half of the tube, and the two discs that close the hole.

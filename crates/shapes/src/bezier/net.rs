@@ -38,18 +38,18 @@ impl Net {
         let [oa, ob, oc] = [a, b, c].map(|axis| f64::from(origin[axis]));
         let inverse = 1.0 / f64::from(dir[c]);
         let [sa, sb] = [a, b].map(|axis| f64::from(dir[axis]) * inverse);
-        let mut net =
-            Self { x: [[0.0; 4]; 4], y: [[0.0; 4]; 4], t: [[0.0; 4]; 4], along: dir[c] > 0.0 };
-        for i in 0..4 {
-            for j in 0..4 {
-                let point = points[i][j].to_array().map(f64::from);
-                let depth = point[c] - oc;
-                net.x[i][j] = (point[a] - oa) - sa * depth;
-                net.y[i][j] = (point[b] - ob) - sb * depth;
-                net.t[i][j] = depth * inverse;
-            }
+        let depth = points.map(|row| row.map(|point| f64::from(point[c]) - oc));
+        let aside = |axis: usize, from: f64, slope: f64| {
+            let at =
+                |i: usize, j: usize| (f64::from(points[i][j][axis]) - from) - slope * depth[i][j];
+            [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| at(i, j)))
+        };
+        Self {
+            x: aside(a, oa, sa),
+            y: aside(b, ob, sb),
+            t: depth.map(|row| row.map(|depth| depth * inverse)),
+            along: dir[c] > 0.0,
         }
-        net
     }
 
     /// Both coordinates at a place.
@@ -87,10 +87,10 @@ impl Weights {
     fn blend(&self, v: &Self, grid: &Grid) -> [f64; 3] {
         let mut row = [0.0; 4];
         let mut row_slope = [0.0; 4];
-        for i in 0..4 {
+        for (i, points) in grid.iter().enumerate() {
             for j in 0..4 {
-                row[j] += self.value[i] * grid[i][j];
-                row_slope[j] += self.slope[i] * grid[i][j];
+                row[j] += self.value[i] * points[j];
+                row_slope[j] += self.slope[i] * points[j];
             }
         }
         [dot(&row, &v.value), dot(&row_slope, &v.value), dot(&row, &v.slope)]

@@ -124,8 +124,7 @@ impl<'a> Search<'a> {
             // In parts of this part, from its middle.
             let away = |axis: usize| ((uv[axis] - part.from[axis]) / part.size[axis] - 0.5).abs();
             let away = away(0).max(away(1));
-            // Also where it is NaN.
-            if !(away <= 1.0) {
+            if away > 1.0 || away.is_nan() {
                 return false;
             }
             if step[0].abs().max(step[1].abs()) > 1e-9 {
@@ -187,16 +186,7 @@ fn straddles(grid: &Grid, rounding: f64) -> bool {
 impl Part {
     /// Largest steps between control points, along `u` and along `v`.
     fn extent(&self) -> [f64; 2] {
-        let mut most = [0.0f64; 2];
-        for grid in [&self.x, &self.y] {
-            for i in 0..4 {
-                for j in 0..3 {
-                    most[0] = most[0].max((grid[j + 1][i] - grid[j][i]).abs());
-                    most[1] = most[1].max((grid[i][j + 1] - grid[i][j]).abs());
-                }
-            }
-        }
-        most
+        [0, 1].map(|axis| farthest(&self.x, axis, 0.0).max(farthest(&self.y, axis, 0.0)))
     }
 
     /// The halves by `v`, or else by `u`.
@@ -245,19 +235,13 @@ impl Part {
             return Verdict::None;
         }
         // How far each row of the derivative is from that of the identity.
+        let third = [[1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
         let off = [0, 1].map(|row| {
-            let grid = &seen[row];
-            let ones = [1.0 - row as f64, row as f64];
-            let (mut by_u, mut by_v) = (0.0f64, 0.0f64);
-            for i in 0..4 {
-                for j in 0..3 {
-                    by_u = by_u.max((3.0 * (grid[j + 1][i] - grid[j][i]) - ones[0]).abs());
-                    by_v = by_v.max((3.0 * (grid[i][j + 1] - grid[i][j]) - ones[1]).abs());
-                }
-            }
-            by_u + by_v
+            let by = |axis: usize| farthest(&seen[row], axis, third[row][axis]);
+            3.0 * (by(0) + by(1))
         });
-        if !(off[0].max(off[1]) < 0.95) {
+        let most = off[0].max(off[1]);
+        if most >= 0.95 || most.is_nan() {
             return Verdict::Many;
         }
         let middle = [center(&seen[0]), center(&seen[1])];
@@ -270,8 +254,23 @@ impl Part {
             let guess = (0.5 - middle[axis]).clamp(0.0, 1.0);
             self.from[axis] + guess * self.size[axis]
         });
-        Verdict::One { near, firmly: off[0].max(off[1]) < 0.3 }
+        Verdict::One { near, firmly: most < 0.3 }
     }
+}
+
+/// How far the steps between control points along an axis are from `step`, at most.
+#[inline]
+fn farthest(grid: &Grid, axis: usize, step: f64) -> f64 {
+    let mut most = [0.0f64; 3];
+    for i in 0..4 {
+        for j in 0..3 {
+            let next =
+                if axis == 0 { grid[j + 1][i] - grid[j][i] } else { grid[i][j + 1] - grid[i][j] };
+            let off = (next - step).abs();
+            most[j] = if off > most[j] { off } else { most[j] };
+        }
+    }
+    most[0].max(most[1]).max(most[2])
 }
 
 /// The value in the middle.

@@ -65,7 +65,7 @@ fn between(low: f64, high: f64, at: impl Fn(f64) -> (f64, f64)) -> Option<(f64, 
         }
         let step = s - value / slope;
         let next = if step > low && step < high { step } else { (low + high) / 2.0 };
-        if (next - s).abs() <= 1e-16 || next <= low || next >= high {
+        if (next - s).abs() <= 1e-13 || next <= low || next >= high {
             return Some((next, falling));
         }
         s = next;

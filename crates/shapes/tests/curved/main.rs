@@ -1,4 +1,6 @@
 //! Curved shapes against dense references in doubles.
 
 mod bezier;
+mod csg;
+mod height_field;
 mod numbers;

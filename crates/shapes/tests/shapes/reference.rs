@@ -18,9 +18,11 @@ pub(crate) fn off(shape: &AnyShape, point: DVec3) -> Option<f64> {
             })
         }
         AnyShape::Plane(_) | AnyShape::Disk(_) => Some(inside(shape, point)?.abs()),
-        AnyShape::Sphere(_) | AnyShape::Cone(_) | AnyShape::Cylinder(_) => {
-            Some(inside(shape, point)?.abs())
-        }
+        AnyShape::Sphere(_)
+        | AnyShape::Cone(_)
+        | AnyShape::Cylinder(_)
+        | AnyShape::Torus(_)
+        | AnyShape::Quadric(_) => Some(inside(shape, point)?.abs()),
         AnyShape::Parallelogram(_) | AnyShape::Polygon(_) | AnyShape::Patch(_) => {
             let corners = corners(shape)?;
             let height = inside(shape, point)?;
@@ -52,6 +54,19 @@ fn inside(shape: &AnyShape, point: DVec3) -> Option<f64> {
             let half = b.extent.size().as_dvec3() / 2.0;
             ((point - b.extent.min.as_dvec3() - half).abs() - half).max_element()
         }
+        AnyShape::Torus(t) => {
+            let from = point - t.center.as_dvec3();
+            let height = from.dot(t.axis.as_dvec3().normalize());
+            let away = (from.length_squared() - height * height).max(0.0).sqrt();
+            DVec2::new(away - f64::from(t.major), height).length() - f64::from(t.minor)
+        }
+        AnyShape::Quadric(q) => {
+            let [squares, linear] = [q.squares, q.linear].map(|x| Vec3A::from_array(x).as_dvec3());
+            assert_eq!(q.products, [0.0; 3], "the samples have none");
+            let value = (squares * point + linear).dot(point) + f64::from(q.constant);
+            // About the distance, near the surface.
+            value / (squares * point * 2.0 + linear).length()
+        }
         AnyShape::Plane(p) => flat(p.point.as_dvec3(), p.normal.as_dvec3()),
         AnyShape::Disk(d) => flat(d.center.as_dvec3(), d.normal.as_dvec3()),
         AnyShape::Parallelogram(_) | AnyShape::Polygon(_) | AnyShape::Patch(_) => {
@@ -76,6 +91,10 @@ fn room(shape: &AnyShape, point: DVec3) -> f64 {
     match shape {
         AnyShape::Cone(c) => between(c.base, c.apex),
         AnyShape::Cylinder(c) => between(c.base, c.top),
+        AnyShape::Quadric(q) if q.clip.is_bounded() => {
+            let (min, max) = (q.clip.min.as_dvec3(), q.clip.max.as_dvec3());
+            (point - min).min(max - point).min_element()
+        }
         AnyShape::Disk(d) => f64::from(d.radius) - (point - d.center.as_dvec3()).length(),
         _ => match corners(shape) {
             Some(corners) => {

@@ -3,15 +3,19 @@
 use glam::{DVec3, Vec3A};
 use nestray_core::aabb::Aabb;
 use nestray_shapes::any::AnyShape;
+use nestray_shapes::bezier::BezierPatch;
 use nestray_shapes::block::Block;
 use nestray_shapes::cone::Cone;
 use nestray_shapes::cylinder::Cylinder;
 use nestray_shapes::disk::Disk;
+use nestray_shapes::height_field::{HeightField, Relief};
 use nestray_shapes::parallelogram::Parallelogram;
 use nestray_shapes::patch::Patch;
 use nestray_shapes::plane::Plane;
 use nestray_shapes::polygon::Polygon;
+use nestray_shapes::quadric::Quadric;
 use nestray_shapes::sphere::Sphere;
+use nestray_shapes::torus::Torus;
 
 use crate::numbers::Numbers;
 
@@ -50,6 +54,12 @@ const MAKERS: &[(Maker, Form)] = &[
     (polygon, Form::Facet),
     (star, Form::Other),
     (patch, Form::Facet),
+    (torus, Form::Other),
+    (apple, Form::Other),
+    (ellipsoid, Form::Other),
+    (saddle, Form::Other),
+    (bezier, Form::Other),
+    (hills, Form::Other),
 ];
 
 /// One shape of each kind at the origin, of about unit size.
@@ -168,4 +178,61 @@ fn patch(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
     let corners: Vec<_> =
         ring(count, center, normal, |_| size).iter().map(|v| (*v, bent(v).to_array())).collect();
     Patch::new(&corners).into()
+}
+
+fn torus(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let minor = size * part(numbers, 0.05, 0.4);
+    Torus { center, axis: unit(numbers), major: size - minor, minor }.into()
+}
+
+fn apple(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let minor = size * part(numbers, 0.55, 0.8);
+    Torus { center, axis: unit(numbers) * 3.0, major: size - minor, minor }.into()
+}
+
+/// A quadric through rounded numbers around `center`: of the given curvatures, `level` sizes
+/// squared away from its centre.
+fn quadric(center: Vec3A, squares: [f32; 3], level: f32, clip: Aabb) -> AnyShape {
+    let c = center.to_array();
+    let constant: f64 = (0..3).map(|i| f64::from(squares[i]) * f64::from(c[i]).powi(2)).sum();
+    Quadric {
+        squares,
+        products: [0.0; 3],
+        linear: [0, 1, 2].map(|i| (-2.0 * f64::from(squares[i]) * f64::from(c[i])) as f32),
+        constant: (constant - f64::from(level)) as f32,
+        clip,
+    }
+    .into()
+}
+
+fn ellipsoid(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let squares = [0; 3].map(|_| part(numbers, 1.0, 4.0));
+    // Its numbers say nothing about places far away.
+    let center = center.clamp(Vec3A::splat(-size), Vec3A::splat(size));
+    quadric(center, squares, size * size, Aabb::ENDLESS)
+}
+
+fn saddle(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let squares = [part(numbers, 0.5, 2.0), part(numbers, -2.0, -0.5), part(numbers, -1.0, 1.0)];
+    let half = Vec3A::splat(size * 0.6);
+    let clip = Aabb { min: center - half, max: center + half };
+    quadric(center, squares, size * size * part(numbers, -0.1, 0.1), clip)
+}
+
+fn bezier(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let mut at = |i: usize, j: usize| {
+        let even = Vec3A::new(i as f32 / 3.0 - 0.5, j as f32 / 3.0 - 0.5, 0.0);
+        center + (even + numbers.cube().as_vec3a() * 0.3) * size
+    };
+    BezierPatch { points: [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| at(i, j))) }.into()
+}
+
+fn hills(numbers: &mut Numbers, center: Vec3A, size: f32) -> AnyShape {
+    let counts = [2 + numbers.below(40), 2 + numbers.below(20)];
+    let heights: Vec<f32> =
+        (0..counts[0] * counts[1]).map(|_| center.y + size * part(numbers, -0.2, 0.2)).collect();
+    let half = size * 0.6;
+    let (from, to) = ([center.x - half, center.z - half], [center.x + half, center.z + half]);
+    let relief = if numbers.below(2) == 0 { Relief::Facets } else { Relief::Smooth };
+    HeightField::new(from, to, counts, heights).expect("it has an area").shaded(relief).into()
 }
