@@ -11,8 +11,8 @@ use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Shape, Sides, Single};
 use nestray_shapes::sphere::Sphere;
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::list::{List, ListParams};
-use nestray_techniques::registry::Members;
+use nestray_techniques::registry::{Members, find};
+use serde_json::Value;
 
 use crate::numbers::Numbers;
 
@@ -31,12 +31,7 @@ impl World {
     /// Exhaustive search.
     #[must_use]
     pub fn oracle(&self) -> DynObject {
-        let params = ListParams::default();
-        match self.members.clone() {
-            Members::Objects(objects) => Arc::new(List::new(params, objects)),
-            Members::Shapes(shapes) => Arc::new(List::new(params, shapes)),
-            Members::Triangles(mesh) => Arc::new(List::new(params, mesh)),
-        }
+        list(self.members.clone())
     }
 
     /// A box around what is bounded, not empty.
@@ -156,14 +151,16 @@ fn mesh(name: &'static str, triangles: Triangles, sides: Sides) -> World {
 }
 
 fn shared_inside(numbers: &mut Numbers) -> DynObject {
-    let params = ListParams::default();
     match numbers.below(2) {
-        0 => Arc::new(List::new(params, spheres(numbers, 12, 1))),
-        _ => match connected(numbers, 3).members {
-            Members::Triangles(mesh) => Arc::new(List::new(params, mesh)),
-            _ => unreachable!("it is a mesh"),
-        },
+        0 => list(Members::Shapes(spheres(numbers, 12, 1))),
+        _ => list(connected(numbers, 3).members),
     }
+}
+
+/// Exhaustive search.
+fn list(members: Members) -> DynObject {
+    let entry = find("list").expect("there is a list");
+    (entry.build)(&Value::Null, members).expect("it has no settings")
 }
 
 /// A few objects in many places, some of them the same.

@@ -70,8 +70,8 @@ fn every_query_asks_each_child_once_at_most() {
             let mut scratch = Scratch::new();
             for (i, ray) in rays.iter().enumerate() {
                 let queries: [&mut dyn FnMut(); 4] = [
-                    &mut || drop(nest.closest_hit(ray, &mut Hit::none(ray.t_max()), &mut scratch)),
-                    &mut || drop(nest.any_hit(ray, &mut Scratch::counting())),
+                    &mut || _ = nest.closest_hit(ray, &mut Hit::none(ray.t_max()), &mut scratch),
+                    &mut || _ = nest.any_hit(ray, &mut Scratch::counting()),
                     &mut || nest.all_hits(ray, &mut Vec::new(), &mut Scratch::new()),
                     &mut || {
                         nest.closest_hits(
