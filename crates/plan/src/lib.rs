@@ -1,1 +1,20 @@
-//! How a scene is put in order: plans, checked and built.
+//! How a scene is put in order: plans, which say what is nested in what, their schema, the
+//! checks they must pass, and the objects built from them.
+
+pub mod plan;
+
+pub mod select;
+
+pub mod parse;
+
+pub mod schema;
+
+pub mod error;
+
+pub mod check;
+
+pub mod build;
+
+pub mod single;
+
+pub mod describe;

@@ -1,0 +1,215 @@
+//! From a plan and a scene to the objects.
+
+use std::sync::Arc;
+
+use nestray_core::by_kind::{ByKind, Case};
+use nestray_core::instance::Instance;
+use nestray_core::lazy::Lazy;
+use nestray_core::moving::Moving;
+use nestray_core::object::DynObject;
+use nestray_scene::geometry::{Content, Geometry};
+use nestray_scene::group::Motion;
+use nestray_scene::scene::Scene;
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::shape::Single;
+use nestray_shapes::triangle_mesh::TriangleMesh;
+use nestray_techniques::registry::{self, Entry, Members};
+use serde_json::Value;
+
+use crate::check::{Resolved, Tree, resolve};
+use crate::error::PlanError;
+use crate::plan::{Nest, Plan};
+
+/// The objects of a plan. Hits name geometries, primitives and instances as the scene counts
+/// them, whatever the plan; the same plan and scene make the same objects.
+///
+/// Nodes of an animation stand where they are at its start: ask for a
+/// [`frame`](Scene::frame) of the scene first.
+///
+/// # Errors
+/// If the plan does not pass [`check`](crate::check::check).
+pub fn build(plan: &Plan, scene: &Scene) -> Result<DynObject, PlanError> {
+    let resolved = resolve(plan, scene)?;
+    let mut shared = Vec::new();
+    for (group, tree) in &resolved.subtrees {
+        let built = recipe(tree, *group, scene, &resolved, &shared).object();
+        shared.push(built);
+    }
+    Ok(recipe(&resolved.root, scene.root, scene, &resolved, &shared).object())
+}
+
+/// What is needed to build a part of a plan, and nothing else: a lazy part keeps one.
+#[derive(Clone)]
+enum Recipe {
+    /// Geometries, side by side.
+    Parts(Vec<Part>),
+    /// A technique.
+    Nest { entry: &'static Entry, params: Value, children: Vec<Self> },
+    /// By kind; the last is `other`.
+    ByKind(Vec<(Option<Case>, Self)>),
+    /// Built late.
+    Lazy(Arc<Self>),
+}
+
+/// What a nest finds among its children.
+#[derive(Clone)]
+enum Part {
+    Mesh(TriangleMesh),
+    Shape(Box<Single<AnyShape>>),
+    Object(DynObject),
+}
+
+/// Looks up whatever a subtree names; `shared` are the subtrees built so far.
+fn recipe(
+    tree: &Tree<'_>,
+    group: usize,
+    scene: &Scene,
+    resolved: &Resolved<'_>,
+    shared: &[DynObject],
+) -> Recipe {
+    let inner = |tree: &Tree<'_>| recipe(tree, group, scene, resolved, shared);
+    match tree {
+        Tree::Pick(leaf) => {
+            let parts = leaf.items.iter().flat_map(|&item| parts(item, &scene.geometries[item]));
+            Recipe::Parts(parts.collect())
+        }
+        Tree::Place { leaf, subtrees, .. } => {
+            let numbers = resolved.paths.numbers(group);
+            let parts = leaf.items.iter().zip(subtrees).map(|(&place, &subtree)| {
+                let motion = &scene.groups[group].places[place].motion;
+                let object = Arc::clone(&shared[subtree]);
+                Part::Object(placed(numbers[place], object, motion, scene))
+            });
+            Recipe::Parts(parts.collect())
+        }
+        Tree::Nest { entry, params, children } => Recipe::Nest {
+            entry,
+            params: params.clone(),
+            children: children.iter().map(inner).collect(),
+        },
+        Tree::ByKind { cases, .. } => {
+            Recipe::ByKind(cases.iter().map(|(case, tree)| (*case, inner(tree))).collect())
+        }
+        Tree::Lazy(tree) => Recipe::Lazy(Arc::new(inner(tree))),
+    }
+}
+
+/// The primitives of a geometry: a mesh as a whole, shapes one by one.
+fn parts(number: usize, geometry: &Geometry) -> Vec<Part> {
+    let (id, sides) = (number as u32, geometry.sides);
+    match &geometry.content {
+        Content::Mesh(triangles) => {
+            vec![Part::Mesh(TriangleMesh::new(id, Arc::clone(triangles)).seen_from(sides))]
+        }
+        Content::Shapes(shapes) => {
+            let single = |(primitive, shape): (u32, &AnyShape)| {
+                let shape = shape.clone();
+                Part::Shape(Box::new(Single { geometry: id, primitive, sides, shape }))
+            };
+            (0..).zip(shapes.iter()).map(single).collect()
+        }
+    }
+}
+
+fn placed(number: u32, object: DynObject, motion: &Motion, scene: &Scene) -> DynObject {
+    match motion {
+        Motion::Still(place) => Arc::new(Instance::new(number, object, *place)),
+        Motion::Keys(keys) => Arc::new(Moving::new(number, object, keys.clone())),
+        Motion::Node(node) => {
+            let place = scene.animation.world_from_node(*node, 0.0);
+            Arc::new(Instance::new(number, object, place))
+        }
+    }
+}
+
+impl Recipe {
+    /// As one object.
+    fn object(&self) -> DynObject {
+        let mut parts = self.parts();
+        match &parts[..] {
+            [Part::Object(_)] => match parts.pop() {
+                Some(Part::Object(object)) => object,
+                _ => unreachable!("it is one object"),
+            },
+            _ => aggregate(list(), &Value::Null, parts),
+        }
+    }
+
+    /// As what a nest around it finds.
+    fn parts(&self) -> Vec<Part> {
+        match self {
+            Self::Parts(parts) => parts.clone(),
+            Self::Nest { entry, params, children } => {
+                let parts = children.iter().flat_map(Self::parts).collect();
+                vec![Part::Object(aggregate(entry, params, parts))]
+            }
+            Self::ByKind(cases) => {
+                let mut cases: Vec<_> =
+                    cases.iter().map(|(case, recipe)| (*case, recipe.object())).collect();
+                let (_, other) = cases.pop().expect("there always is an `other`");
+                let cases = cases.into_iter().filter_map(|(case, object)| Some((case?, object)));
+                vec![Part::Object(Arc::new(ByKind::new(cases.collect(), other)))]
+            }
+            Self::Lazy(inner) => {
+                let mut flat = Vec::new();
+                inner.flatten(&mut flat);
+                let stand_in = aggregate(list(), &Value::Null, flat);
+                let inner = Arc::clone(inner);
+                vec![Part::Object(Arc::new(Lazy::new(stand_in, move || inner.object())))]
+            }
+        }
+    }
+
+    /// Everything in it, in no order: what any of its structures holds.
+    fn flatten(&self, parts: &mut Vec<Part>) {
+        match self {
+            Self::Parts(own) => parts.extend(own.iter().cloned()),
+            Self::Nest { children, .. } => {
+                for child in children {
+                    child.flatten(parts);
+                }
+            }
+            Self::ByKind(cases) => {
+                if let Some((_, other)) = cases.last() {
+                    other.flatten(parts);
+                }
+            }
+            Self::Lazy(inner) => inner.flatten(parts),
+        }
+    }
+}
+
+fn list() -> &'static Entry {
+    registry::find("list").expect("it is the first of all techniques")
+}
+
+/// A technique over parts, in the fastest form there is for them; see [`Nest`].
+fn aggregate(entry: &Entry, params: &Value, parts: Vec<Part>) -> DynObject {
+    let make = |entry: &Entry, params: &Value, members| {
+        (entry.build)(params, members).expect("the settings have been checked")
+    };
+    let shapes = parts.iter().all(|part| matches!(part, Part::Shape(_)));
+    if let [Part::Mesh(mesh)] = &parts[..] {
+        return make(entry, params, Members::Triangles(mesh.clone()));
+    }
+    if shapes && !parts.is_empty() {
+        let shapes = parts.into_iter().filter_map(|part| match part {
+            Part::Shape(shape) => Some(*shape),
+            _ => None,
+        });
+        return make(entry, params, Members::Shapes(shapes.collect()));
+    }
+    let object = |part| match part {
+        Part::Object(object) => object,
+        Part::Shape(shape) => Arc::new(*shape),
+        Part::Mesh(mesh) if mesh.triangles().count() <= Nest::TINY => {
+            make(list(), &Value::Null, Members::Triangles(mesh))
+        }
+        Part::Mesh(mesh) => make(entry, params, Members::Triangles(mesh)),
+    };
+    let objects = parts.into_iter().map(object).collect();
+    make(entry, params, Members::Objects(objects))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,255 @@
+//! What a plan must satisfy before it is built.
+
+mod cover;
+mod form;
+mod universe;
+
+use std::collections::HashMap;
+
+use nestray_core::by_kind::Case;
+use nestray_core::technique;
+use nestray_scene::group::Motion;
+use nestray_scene::paths::Paths;
+use nestray_scene::scene::Scene;
+use nestray_techniques::registry::{self, Entry};
+use serde_json::Value;
+
+use self::cover::settle;
+use self::universe::Universe;
+use crate::error::{PlanError, Problem};
+use crate::plan::{Node, Plan};
+
+/// Checks that a plan can be built for a scene: that its techniques, settings, names and
+/// shared subtrees exist, that it is not too deep, that every technique can serve where it
+/// stands, and that it holds every geometry and instance once.
+///
+/// # Errors
+/// The first thing that is wrong, and where.
+pub fn check(plan: &Plan, scene: &Scene) -> Result<(), PlanError> {
+    resolve(plan, scene).map(|_| ())
+}
+
+/// Checks what can be checked without a scene.
+///
+/// # Errors
+/// The first thing that is wrong, and where.
+pub fn check_form(plan: &Plan) -> Result<(), PlanError> {
+    form::form(plan)?;
+    form::unused(plan)
+}
+
+/// A plan in which every name has been looked up.
+#[derive(Debug)]
+pub(crate) struct Resolved<'a> {
+    /// Shared subtrees, once for each group they are placed for, with that group; each after
+    /// those it places.
+    pub(crate) subtrees: Vec<(usize, Tree<'a>)>,
+    /// The world.
+    pub(crate) root: Tree<'a>,
+    /// The numbers of places.
+    pub(crate) paths: Paths,
+}
+
+/// A part of it.
+#[derive(Debug)]
+pub(crate) enum Tree<'a> {
+    /// Geometries of the scene.
+    Pick(Leaf),
+    /// Places of the group; for each of them the shared subtree, which is called so.
+    Place { leaf: Leaf, shared: &'a str, subtrees: Vec<usize> },
+    /// A technique.
+    Nest { entry: &'static Entry, params: Value, children: Vec<Self> },
+    /// By kind; the last case is `other`.
+    ByKind { path: String, cases: Vec<(Option<Case>, Self)> },
+    /// Built late.
+    Lazy(Box<Self>),
+}
+
+/// What a selection selects.
+#[derive(Debug)]
+pub(crate) struct Leaf {
+    /// While checking, numbers in the [`Universe`]; then those of the scene and the group.
+    pub(crate) items: Vec<usize>,
+    /// Whether the rest belongs to it too.
+    rest: bool,
+    /// Where in the plan it stands.
+    path: String,
+}
+
+/// Looks every name up.
+pub(crate) fn resolve<'a>(plan: &'a Plan, scene: &'a Scene) -> Result<Resolved<'a>, PlanError> {
+    form::form(plan)?;
+    let paths = Paths::new(scene)?;
+    let mut moves = vec![None; scene.groups.len()];
+    for group in 0..scene.groups.len() {
+        group_moves(scene, group, &mut moves);
+    }
+    let mut resolver = Resolver { plan, scene, moves, known: HashMap::new(), subtrees: Vec::new() };
+    let root = resolver.group("root", &plan.root, scene.root, 0)?;
+    form::unused(plan)?;
+    Ok(Resolved { subtrees: resolver.subtrees, root, paths })
+}
+
+/// Whether something in a group moves while the shutter is open.
+fn group_moves(scene: &Scene, group: usize, known: &mut Vec<Option<bool>>) -> bool {
+    if let Some(moves) = known[group] {
+        return moves;
+    }
+    let moves = scene.groups[group].places.iter().any(|place| {
+        matches!(place.motion, Motion::Keys(_)) || group_moves(scene, place.group, known)
+    });
+    known[group] = Some(moves);
+    moves
+}
+
+struct Resolver<'a> {
+    plan: &'a Plan,
+    scene: &'a Scene,
+    /// For each group whether something in it moves.
+    moves: Vec<Option<bool>>,
+    /// The subtree made of a shared one for a group.
+    known: HashMap<(&'a str, usize), usize>,
+    subtrees: Vec<(usize, Tree<'a>)>,
+}
+
+impl<'a> Resolver<'a> {
+    /// A subtree that holds a group, below so many instances.
+    fn group(
+        &mut self,
+        path: &str,
+        node: &'a Node,
+        group: usize,
+        instances: usize,
+    ) -> Result<Tree<'a>, PlanError> {
+        let universe = Universe::new(self.scene, group);
+        let mut tree = draft(path, node, &universe)?;
+        settle(path, &mut tree, &universe)?;
+        self.finish(path, &mut tree, &universe, instances)?;
+        Ok(tree)
+    }
+
+    /// Finds the subtrees of places and asks techniques for objections; says whether
+    /// something in it moves.
+    fn finish(
+        &mut self,
+        path: &str,
+        tree: &mut Tree<'a>,
+        universe: &Universe<'_>,
+        instances: usize,
+    ) -> Result<bool, PlanError> {
+        match tree {
+            Tree::Pick(leaf) => {
+                universe.rename(&mut leaf.items);
+                Ok(false)
+            }
+            Tree::Place { leaf, shared, subtrees } => {
+                universe.rename(&mut leaf.items);
+                let mut moving = false;
+                for &place in &leaf.items {
+                    let place = &self.scene.groups[universe.group].places[place];
+                    moving |= matches!(place.motion, Motion::Keys(_));
+                    moving |= self.moves[place.group] == Some(true);
+                    subtrees.push(self.subtree(shared, place.group, instances)?);
+                }
+                Ok(moving)
+            }
+            Tree::Nest { entry, params, children } => {
+                let mut moving = false;
+                for (i, child) in children.iter_mut().enumerate() {
+                    let path = format!("{path}/nest/children/{i}");
+                    moving |= self.finish(&path, child, universe, instances)?;
+                }
+                let technique = entry.name;
+                let objection = (entry.objection)(params, &technique::Place { instances, moving });
+                match objection.expect("the settings have been checked") {
+                    Some(reason) => {
+                        Err(PlanError::at(path, Problem::Objection { technique, reason }))
+                    }
+                    None => Ok(moving),
+                }
+            }
+            Tree::ByKind { path, cases } => {
+                let mut moving = false;
+                for (case, tree) in cases {
+                    let path = format!("{path}/by_kind/{}", case_name(*case));
+                    moving |= self.finish(&path, tree, universe, instances)?;
+                }
+                Ok(moving)
+            }
+            Tree::Lazy(inner) => self.finish(&format!("{path}/lazy"), inner, universe, instances),
+        }
+    }
+
+    /// The shared subtree of that name, for a group.
+    fn subtree(
+        &mut self,
+        name: &'a str,
+        group: usize,
+        instances: usize,
+    ) -> Result<usize, PlanError> {
+        if let Some(&known) = self.known.get(&(name, group)) {
+            return Ok(known);
+        }
+        let node = &self.plan.shared[name];
+        let tree = self.group(&format!("shared/{name}"), node, group, instances + 1)?;
+        self.subtrees.push((group, tree));
+        self.known.insert((name, group), self.subtrees.len() - 1);
+        Ok(self.subtrees.len() - 1)
+    }
+}
+
+/// A node with its own selections looked up.
+fn draft<'a>(path: &str, node: &'a Node, universe: &Universe<'_>) -> Result<Tree<'a>, PlanError> {
+    let leaf = |selection, place, below: &str| {
+        let path = format!("{path}/{below}");
+        let (items, rest) = universe
+            .select(selection, place)
+            .map_err(|problem| PlanError::at(path.clone(), problem))?;
+        Ok::<_, PlanError>(Leaf { items, rest, path })
+    };
+    Ok(match node {
+        Node::Pick(selection) => Tree::Pick(leaf(selection, false, "pick")?),
+        Node::Place(place) => Tree::Place {
+            leaf: leaf(&place.instance, true, "place/instance")?,
+            shared: &place.shared,
+            subtrees: Vec::new(),
+        },
+        Node::Nest(nest) => {
+            let children = nest
+                .children
+                .iter()
+                .enumerate()
+                .map(|(i, child)| draft(&format!("{path}/nest/children/{i}"), child, universe));
+            Tree::Nest {
+                entry: registry::find(&nest.technique).expect("the technique has been checked"),
+                params: Value::Object(nest.params.clone()),
+                children: children.collect::<Result<_, _>>()?,
+            }
+        }
+        Node::ByKind(by_kind) => {
+            let cases = by_kind.cases().into_iter().map(|(case, name, node)| {
+                Ok((case, draft(&format!("{path}/by_kind/{name}"), node, universe)?))
+            });
+            Tree::ByKind { path: path.to_owned(), cases: cases.collect::<Result<_, PlanError>>()? }
+        }
+        Node::Lazy(inner) => Tree::Lazy(Box::new(draft(&format!("{path}/lazy"), inner, universe)?)),
+    })
+}
+
+/// What a case is called in paths.
+fn case_name(case: Option<Case>) -> String {
+    match case {
+        Some(Case::Camera) => "camera".into(),
+        Some(Case::Reflect) => "reflect".into(),
+        Some(Case::Refract) => "refract".into(),
+        Some(Case::Diffuse) => "diffuse".into(),
+        Some(Case::Shadow(Some(light))) => format!("lights/{light}"),
+        Some(Case::Shadow(None)) => "shadow".into(),
+        Some(Case::Custom(Some(number))) => format!("custom/{number}"),
+        Some(Case::Custom(None)) => "custom".into(),
+        None => "other".into(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,173 @@
+//! What an object is made of, for reports.
+
+use nestray_core::cost::{Cost, CostModel};
+use nestray_core::object::Object;
+use serde::Serialize;
+
+/// An object and what is in it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// What it is: a technique, a wrapper, a shape.
+    pub kind: &'static str,
+    /// Its settings; empty if it has none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub settings: String,
+    /// How many there are of it, side by side and alike.
+    pub count: u64,
+    /// Expected time of a random ray that meets the bounds, in nanoseconds, of the first.
+    pub nanos: f64,
+    /// Memory in bytes, of all of them; what instances share counts for none of them.
+    pub bytes: u64,
+    /// What it is made of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub children: Vec<Self>,
+    /// Whether there is more in it that is not shown.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub cut: bool,
+}
+
+/// Most objects that are looked at: instances in instances are written out in full, and can
+/// be more than anybody wants to see.
+const MOST: usize = 20_000;
+
+/// What an object is made of. Neighbours that are alike are counted, not repeated.
+#[must_use]
+pub fn describe(object: &dyn Object, model: &CostModel) -> Part {
+    let mut left = MOST;
+    part(object, model, &mut left)
+}
+
+fn part(object: &dyn Object, model: &CostModel, left: &mut usize) -> Part {
+    let cost: Cost = object.cost(model);
+    let mut whole = Part {
+        kind: object.kind(),
+        settings: object.settings(),
+        count: 1,
+        nanos: cost.nanos(),
+        bytes: cost.bytes,
+        children: Vec::new(),
+        cut: false,
+    };
+    object.visit_children(&mut |child| {
+        if *left == 0 {
+            whole.cut = true;
+            return;
+        }
+        *left -= 1;
+        let child = part(child, model, left);
+        match whole.children.iter_mut().rev().take(8).find(|other| other.is_like(&child)) {
+            Some(other) => {
+                other.count += 1;
+                other.bytes += child.bytes;
+            }
+            None => whole.children.push(child),
+        }
+    });
+    whole
+}
+
+impl Part {
+    /// Whether it looks the same but for what it costs.
+    fn is_like(&self, other: &Self) -> bool {
+        self.kind == other.kind
+            && self.settings == other.settings
+            && self.cut == other.cut
+            && self.children.len() == other.children.len()
+            && self
+                .children
+                .iter()
+                .zip(&other.children)
+                .all(|(a, b)| a.count == b.count && a.is_like(b))
+    }
+
+    /// As an indented text, a line each.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let mut text = String::new();
+        self.write(0, &mut text);
+        text
+    }
+
+    fn write(&self, level: usize, text: &mut String) {
+        let count = if self.count > 1 { format!("{} × ", self.count) } else { String::new() };
+        let settings =
+            if self.settings.is_empty() { String::new() } else { format!("  {}", self.settings) };
+        let line = format!(
+            "{:indent$}{count}{}{settings}  {:.0} ns, {}\n",
+            "",
+            self.kind,
+            self.nanos,
+            bytes(self.bytes),
+            indent = 2 * level,
+        );
+        text.push_str(&line);
+        for child in &self.children {
+            child.write(level + 1, text);
+        }
+        if self.cut {
+            text.push_str(&format!("{:indent$}…\n", "", indent = 2 * level + 2));
+        }
+    }
+}
+
+/// A number of bytes, for people.
+#[must_use]
+pub fn bytes(count: u64) -> String {
+    let mut size = count as f64;
+    for unit in ["B", "kB", "MB", "GB"] {
+        if size < 1000.0 {
+            return if unit == "B" { format!("{size} B") } else { format!("{size:.1} {unit}") };
+        }
+        size /= 1000.0;
+    }
+    format!("{size:.1} TB")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::{Affine3A, Vec3A};
+    use nestray_core::instance::Instance;
+    use nestray_core::object::DynObject;
+    use nestray_shapes::shape::Single;
+    use nestray_shapes::sphere::Sphere;
+    use nestray_techniques::registry::{Members, find};
+    use serde_json::Value;
+
+    use super::*;
+
+    fn bvh(members: Vec<DynObject>) -> DynObject {
+        let entry = find("bvh").expect("it is there");
+        (entry.build)(&Value::Null, Members::Objects(members)).expect("the defaults are sound")
+    }
+
+    fn sphere(x: f32) -> DynObject {
+        Arc::new(Single::new(0, Sphere { center: Vec3A::new(x, 0.0, 0.0), radius: 1.0 }))
+    }
+
+    #[test]
+    fn what_is_alike_is_counted() {
+        let tree = bvh((0..5).map(|i| sphere(i as f32)).collect());
+        let place = |i| Arc::new(Instance::new(i, Arc::clone(&tree), Affine3A::IDENTITY)) as _;
+        let world = bvh((1..4).map(place).chain([sphere(9.0)]).collect());
+        let text = describe(&world, &CostModel::default()).to_text();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 5, "{text}");
+        assert!(
+            lines[1].starts_with("  3 × instance") && lines[2].starts_with("    bvh"),
+            "{text}"
+        );
+        assert!(lines[3].starts_with("      5 × sphere") && lines[4].starts_with("  sphere"));
+    }
+
+    #[test]
+    fn a_tower_of_instances_is_cut_short() {
+        let mut tower = bvh(vec![sphere(0.0)]);
+        for _ in 0..14 {
+            let place = |i| Arc::new(Instance::new(i, Arc::clone(&tower), Affine3A::IDENTITY)) as _;
+            tower = bvh((1..3).map(place).collect());
+        }
+        assert!(describe(&tower, &CostModel::default()).to_text().contains('…'));
+    }
+}
