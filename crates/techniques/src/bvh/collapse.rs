@@ -68,14 +68,15 @@ impl Forests {
     fn children(&self, binary: &Binary<'_>, i: u32) -> Vec<u32> {
         let mut out = Vec::with_capacity(8);
         let pair = &binary.pairs[i as usize];
-        if pair.left != 0 {
-            // Two parts or more, even where one would be cheaper.
-            let parts = (2..=8).rev().find(|&p| self.cut[i as usize][p - 1] != FEWER).unwrap_or(2);
-            let left = usize::from(self.cut[i as usize][parts - 1]);
-            self.roots(binary, pair.left, left, &mut out);
-            self.roots(binary, pair.right, parts - left, &mut out);
-        } else {
-            out.push(i);
+        let parts = (2..=8).rev().find(|&p| self.cut[i as usize][p - 1] != FEWER);
+        match parts.filter(|_| pair.left != 0) {
+            Some(parts) => {
+                let left = usize::from(self.cut[i as usize][parts - 1]);
+                self.roots(binary, pair.left, left, &mut out);
+                self.roots(binary, pair.right, parts - left, &mut out);
+            }
+            // Best as one leaf: only the root of a whole tree is asked nevertheless.
+            None => out.push(i),
         }
         let area = |i: u32| binary.pairs[i as usize].bounds.surface_area();
         out.sort_by(|&a, &b| area(a).total_cmp(&area(b)));
