@@ -1,5 +1,6 @@
 //! Bicubic Bézier patches, hit as they are: nothing is cut into triangles.
 
+mod lens;
 mod net;
 mod place;
 mod search;

@@ -74,7 +74,9 @@ impl Torus {
             linear: 2.0 * four * height * slope,
             constant: shift * shift - four * (apart - height * height),
         };
-        quartic.each_root(1.5, |root, falling| {
+        // The ball around the torus, and a hair.
+        let limit = (1.0 - apart).sqrt() + 1e-9;
+        quartic.each_root(limit, |root, falling| {
             // The rest is the part of the tube that the tube hides.
             if major >= minor || root * root + shift >= 0.0 {
                 found((first + (second + root * reach)) / length, falling);

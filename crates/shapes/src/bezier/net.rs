@@ -102,15 +102,22 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
 
-/// The lower and the upper half of a net by `u` [de Casteljau 59].
+/// The lower and the upper part of a net, cut across `u` [de Casteljau 59].
 #[inline]
-pub(super) fn halves(grid: &Grid) -> [Grid; 2] {
-    let middle = |a: &[f64; 4], b: &[f64; 4]| [0, 1, 2, 3].map(|j| (a[j] + b[j]) * 0.5);
+pub(super) fn cut(grid: &Grid, u: f64) -> [Grid; 2] {
+    let between = |a: &[f64; 4], b: &[f64; 4]| [0, 1, 2, 3].map(|j| a[j] + (b[j] - a[j]) * u);
     let [a, b, c, d] = grid;
-    let (ab, bc, cd) = (middle(a, b), middle(b, c), middle(c, d));
-    let (abc, bcd) = (middle(&ab, &bc), middle(&bc, &cd));
-    let center = middle(&abc, &bcd);
-    [[*a, ab, abc, center], [center, bcd, cd, *d]]
+    let (ab, bc, cd) = (between(a, b), between(b, c), between(c, d));
+    let (abc, bcd) = (between(&ab, &bc), between(&bc, &cd));
+    let middle = between(&abc, &bcd);
+    [[*a, ab, abc, middle], [middle, bcd, cd, *d]]
+}
+
+/// The part of a net between two values of `u`.
+#[inline]
+pub(super) fn section(grid: &Grid, [from, to]: [f64; 2]) -> Grid {
+    let [below, _] = cut(grid, to);
+    if from > 0.0 { cut(&below, from / to)[1] } else { below }
 }
 
 /// The same net with `u` and `v` in each other's place.

@@ -4,7 +4,8 @@
 //! over a part that it can hold at most one root. Parts are dropped only when their control
 //! points, or a bound on their derivatives, prove that there is none.
 
-use super::net::{At, Grid, Net, flipped, halves};
+use super::lens::{Lens, farthest, straddles};
+use super::net::{At, Grid, Net, cut, flipped, section};
 
 /// A place where the ray passes through.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,21 +41,11 @@ pub(super) struct Search<'a> {
 }
 
 /// A part of the patch: its control points, and where it is.
-struct Part {
-    x: Grid,
-    y: Grid,
+pub(super) struct Part {
+    pub(super) x: Grid,
+    pub(super) y: Grid,
     from: [f64; 2],
     size: [f64; 2],
-}
-
-/// What a bound on the derivatives says of a part.
-enum Verdict {
-    /// No root.
-    None,
-    /// At most one, likely near this place; `firmly` if there is also no other around.
-    One { near: [f64; 2], firmly: bool },
-    /// Nobody knows.
-    Many,
 }
 
 impl<'a> Search<'a> {
@@ -87,29 +78,35 @@ impl<'a> Search<'a> {
     }
 
     fn look(&mut self, part: &Part) {
-        if self.parts == 0
-            || !straddles(&part.x, self.rounding)
-            || !straddles(&part.y, self.rounding)
-        {
+        let may = straddles(&part.x, self.rounding) && straddles(&part.y, self.rounding);
+        if self.parts == 0 || !may {
             return;
         }
         self.parts -= 1;
-        match part.judge(self.rounding) {
-            Verdict::None => return,
-            Verdict::One { near, firmly } => {
-                if self.newton(part, near, firmly) {
+        let mut range = [[0.0, 1.0]; 2];
+        if let Some(lens) = Lens::new(part, self.rounding) {
+            if lens.is_empty() {
+                return;
+            }
+            let spread = lens.spread();
+            let most = spread[0].max(spread[1]);
+            if most < 0.95 {
+                let Some(near) = lens.only(spread) else { return };
+                if self.newton(part, part.place(near), most < 0.3) {
                     return;
                 }
             }
-            Verdict::Many => {}
+            range = lens.range();
         }
         let [along_u, along_v] = part.extent();
         if along_u.max(along_v) < self.point {
             self.touch(part);
-            return;
-        }
-        for half in part.halved(along_u < along_v) {
-            self.look(&half);
+        } else if (range[0][1] - range[0][0]) * (range[1][1] - range[1][0]) < 0.5 {
+            self.look(&part.within(range));
+        } else {
+            for half in part.halved(along_u < along_v) {
+                self.look(&half);
+            }
         }
     }
 
@@ -170,19 +167,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether control points lie on both sides of zero.
-#[inline]
-fn straddles(grid: &Grid, rounding: f64) -> bool {
-    let (mut low, mut high) = (grid[0], grid[0]);
-    for row in &grid[1..] {
-        for j in 0..4 {
-            low[j] = if row[j] < low[j] { row[j] } else { low[j] };
-            high[j] = if row[j] > high[j] { row[j] } else { high[j] };
-        }
-    }
-    low.iter().any(|&x| x <= rounding) && high.iter().any(|&x| x >= -rounding)
-}
-
 impl Part {
     /// Largest steps between control points, along `u` and along `v`.
     fn extent(&self) -> [f64; 2] {
@@ -192,7 +176,7 @@ impl Part {
     /// The halves by `v`, or else by `u`.
     fn halved(&self, by_v: bool) -> [Self; 2] {
         let [x, y] = [&self.x, &self.y].map(|grid| {
-            if by_v { halves(&flipped(grid)).map(|half| flipped(&half)) } else { halves(grid) }
+            if by_v { cut(&flipped(grid), 0.5).map(|half| flipped(&half)) } else { cut(grid, 0.5) }
         });
         let axis = usize::from(by_v);
         let mut size = self.size;
@@ -205,6 +189,19 @@ impl Part {
         ]
     }
 
+    /// The part of it in a range of `u` and of `v`, in `[0, 1]` of this one.
+    fn within(&self, [u, v]: [[f64; 2]; 2]) -> Self {
+        let [x, y] =
+            [&self.x, &self.y].map(|grid| flipped(&section(&flipped(&section(grid, u)), v)));
+        let size = [self.size[0] * (u[1] - u[0]), self.size[1] * (v[1] - v[0])];
+        Self { x, y, from: self.place([u[0], v[0]]), size }
+    }
+
+    /// A place in it, given in `[0, 1]`, in the patch.
+    fn place(&self, uv: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| self.from[axis] + uv[axis] * self.size[axis])
+    }
+
     /// Whether a root is in it, or over its edge by less than neighbours may differ.
     fn holds(&self, uv: [f64; 2]) -> bool {
         [0, 1].iter().all(|&axis| {
@@ -212,70 +209,4 @@ impl Part {
             -OVER <= from && from <= self.size[axis] + OVER
         })
     }
-
-    /// Sees the part through the inverse of its mean derivative, which makes it nearly the
-    /// identity: `near` by how much bounds how many roots there can be and where.
-    fn judge(&self, rounding: f64) -> Verdict {
-        let mean = |g: &Grid| {
-            let [along, across] =
-                [g[3][0] - g[0][0] + (g[3][3] - g[0][3]), g[0][3] - g[0][0] + (g[3][3] - g[3][0])];
-            [along * 0.5, across * 0.5]
-        };
-        let ([xu, xv], [yu, yv]) = (mean(&self.x), mean(&self.y));
-        let turn = xu * yv - xv * yu;
-        let inverse = [[yv / turn, -xv / turn], [-yu / turn, xu / turn]];
-        if !inverse.as_flattened().iter().all(|x| x.is_finite()) {
-            return Verdict::Many;
-        }
-        let seen: [Grid; 2] = inverse.map(|[p, q]| {
-            [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| p * self.x[i][j] + q * self.y[i][j]))
-        });
-        let noise = inverse.map(|[p, q]| rounding * (p.abs() + q.abs()));
-        if !straddles(&seen[0], noise[0]) || !straddles(&seen[1], noise[1]) {
-            return Verdict::None;
-        }
-        // How far each row of the derivative is from that of the identity.
-        let third = [[1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
-        let off = [0, 1].map(|row| {
-            let by = |axis: usize| farthest(&seen[row], axis, third[row][axis]);
-            3.0 * (by(0) + by(1))
-        });
-        let most = off[0].max(off[1]);
-        if most >= 0.95 || most.is_nan() {
-            return Verdict::Many;
-        }
-        let middle = [center(&seen[0]), center(&seen[1])];
-        // From the middle a root is at most half a part away, seen at most that much longer.
-        let beyond = |row: usize| middle[row].abs() > (1.0 + off[row]) * 0.5 + noise[row] + 1e-9;
-        if beyond(0) || beyond(1) {
-            return Verdict::None;
-        }
-        let near = [0, 1].map(|axis| {
-            let guess = (0.5 - middle[axis]).clamp(0.0, 1.0);
-            self.from[axis] + guess * self.size[axis]
-        });
-        Verdict::One { near, firmly: most < 0.3 }
-    }
-}
-
-/// How far the steps between control points along an axis are from `step`, at most.
-#[inline]
-fn farthest(grid: &Grid, axis: usize, step: f64) -> f64 {
-    let mut most = [0.0f64; 3];
-    for i in 0..4 {
-        for j in 0..3 {
-            let next =
-                if axis == 0 { grid[j + 1][i] - grid[j][i] } else { grid[i][j + 1] - grid[i][j] };
-            let off = (next - step).abs();
-            most[j] = if off > most[j] { off } else { most[j] };
-        }
-    }
-    most[0].max(most[1]).max(most[2])
-}
-
-/// The value in the middle.
-#[inline]
-fn center(grid: &Grid) -> f64 {
-    let row = |r: &[f64; 4]| (r[0] + r[3]) + 3.0 * (r[1] + r[2]);
-    ((row(&grid[0]) + row(&grid[3])) + 3.0 * (row(&grid[1]) + row(&grid[2]))) / 64.0
 }

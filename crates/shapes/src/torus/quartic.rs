@@ -32,13 +32,13 @@ impl Quartic {
         stations[0] = -limit;
         let mut count = 1;
         for [low, high] in [[-limit, -bend], [-bend, bend], [bend, limit]] {
-            if let Some((turn, _)) = between(low, high, |s| self.derived(s)) {
+            if let Some((turn, _)) = between(low, high, 1e-7, |s| self.derived(s)) {
                 stations[count] = turn;
                 count += 1;
             }
         }
         for pair in stations[..=count].windows(2) {
-            if let Some((root, falling)) = between(pair[0], pair[1], |s| self.at(s)) {
+            if let Some((root, falling)) = between(pair[0], pair[1], 1e-9, |s| self.at(s)) {
                 found(root, falling);
             }
         }
@@ -47,15 +47,15 @@ impl Quartic {
 
 /// Where a function that is monotone from `low` to `high` changes sign, if it does, and
 /// whether it falls: Newton's steps, halves where they leave the bracket.
-fn between(low: f64, high: f64, at: impl Fn(f64) -> (f64, f64)) -> Option<(f64, bool)> {
-    let positive = |s: f64| at(s).0 >= 0.0;
-    let falling = positive(low);
-    if low >= high || falling == positive(high) {
+#[inline]
+fn between(low: f64, high: f64, fine: f64, at: impl Fn(f64) -> (f64, f64)) -> Option<(f64, bool)> {
+    let falling = at(low).0 >= 0.0;
+    if low >= high || falling == (at(high).0 >= 0.0) {
         return None;
     }
     let (mut low, mut high) = (low, high);
     let mut s = (low + high) / 2.0;
-    // Halving alone would end after sixty; Newton takes six.
+    // Halving alone would end after sixty; Newton takes five.
     for _ in 0..80 {
         let (value, slope) = at(s);
         if (value >= 0.0) == falling {
@@ -64,11 +64,18 @@ fn between(low: f64, high: f64, at: impl Fn(f64) -> (f64, f64)) -> Option<(f64, 
             high = s;
         }
         let step = s - value / slope;
-        let next = if step > low && step < high { step } else { (low + high) / 2.0 };
-        if (next - s).abs() <= 1e-13 || next <= low || next >= high {
-            return Some((next, falling));
+        if step >= low && step <= high {
+            // The error is squared in each step.
+            if (step - s).abs() <= fine {
+                return Some((step, falling));
+            }
+            s = step;
+        } else {
+            s = (low + high) / 2.0;
+            if high - low <= 1e-15 {
+                break;
+            }
         }
-        s = next;
     }
     Some((s, falling))
 }

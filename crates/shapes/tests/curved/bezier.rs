@@ -26,9 +26,9 @@ fn evaluate(patch: &BezierPatch, u: f64, v: f64) -> [DVec3; 3] {
     };
     let sum = |a: [f64; 4], b: [f64; 4]| {
         let mut sum = DVec3::ZERO;
-        for i in 0..4 {
-            for j in 0..4 {
-                sum += patch.points[i][j].as_dvec3() * a[i] * b[j];
+        for (row, a) in patch.points.iter().zip(a) {
+            for (point, b) in row.iter().zip(b) {
+                sum += point.as_dvec3() * a * b;
             }
         }
         sum

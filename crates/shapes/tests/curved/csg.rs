@@ -165,7 +165,7 @@ fn sound(seed: u64, solid: &DynObject) {
     for case in 0..3_000 {
         let ray = numbers.ray_at(Vec3A::ZERO, 1.0, 4.0);
         let all = hits(solid, &ray);
-        assert!(all.len() % 2 == 0, "seed {seed}, case {case}: {all:?}");
+        assert!(all.len().is_multiple_of(2), "seed {seed}, case {case}: {all:?}");
         for (i, (_, enters)) in all.iter().enumerate() {
             assert_eq!(*enters, i % 2 == 0, "seed {seed}, case {case}: {all:?}");
         }
@@ -240,7 +240,7 @@ fn rays_at_vertices_and_edges_of_a_mesh_stay_outside_of_what_they_pass() {
         let dir = numbers.vector(1.0).normalize();
         let ray = Ray::new(vertex - dir * 4.0, dir, RayKind::Camera);
         let found = hits(&all, &ray);
-        assert!(found.len() % 2 == 0, "seed 5, case {case}: {found:?}");
+        assert!(found.len().is_multiple_of(2), "seed 5, case {case}: {found:?}");
         for (i, (_, enters)) in found.iter().enumerate() {
             assert_eq!(*enters, i % 2 == 0, "seed 5, case {case}: {found:?}");
         }
