@@ -35,7 +35,7 @@ impl Forests {
             for parts in 2..=8 {
                 let best = (1..parts)
                     .map(|l| (left[l - 1] + right[parts - l - 1], l as u8))
-                    .fold((f32::INFINITY, 0), |a, b| if b.0 < a.0 { b } else { a });
+                    .fold((f32::INFINITY, 1), |a, b| if b.0 < a.0 { b } else { a });
                 (cost[parts - 1], cut[parts - 1]) = best;
             }
             let node = pair.bounds.surface_area() + cost[7];

@@ -1,0 +1,166 @@
+//! The house is in order: which crate knows which, how long files and functions are, where
+//! `unsafe` stands, and that every technique has its page.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use nestray_techniques::registry::TECHNIQUES;
+
+/// Longest file and function, in lines.
+const FILE: usize = 300;
+const FUNCTION: usize = 60;
+
+/// Which crates of ours each may depend on.
+const MAY_KNOW: &[(&str, &[&str])] = &[
+    ("core", &[]),
+    ("shapes", &["core"]),
+    ("techniques", &["core", "shapes"]),
+    ("scene", &["core", "shapes"]),
+    ("io", &["core", "shapes", "scene"]),
+    ("plan", &["core", "shapes", "techniques", "scene"]),
+    ("render", &["core", "shapes", "scene"]),
+    ("nestray", &["core", "shapes", "techniques", "scene", "io", "plan", "render"]),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// All Rust files below a folder of the repository.
+fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    let mut open = vec![root().join(folder)];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(&folder).expect("a folder of the repository") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() && !path.ends_with("target") {
+                open.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let text = fs::read_to_string(&path).expect("a text");
+                found.push((path, text));
+            }
+        }
+    }
+    found
+}
+
+fn all_sources() -> Vec<(PathBuf, String)> {
+    ["crates", "apps", "tests", "xtask"].into_iter().flat_map(sources).collect()
+}
+
+/// Asserts that nothing was found wrong, and lists what was.
+fn check(what: &str, wrong: Vec<String>) {
+    assert!(wrong.is_empty(), "{what}:\n  {}", wrong.join("\n  "));
+}
+
+#[test]
+fn crates_know_only_those_below_them() {
+    let mut wrong = Vec::new();
+    for (name, may_know) in MAY_KNOW {
+        let manifest = root().join("crates").join(name).join("Cargo.toml");
+        let text = fs::read_to_string(&manifest).expect("every crate has a manifest");
+        let own = text.split("[dev-dependencies]").next().unwrap_or_default();
+        for line in own.lines().filter(|line| line.starts_with("nestray-")) {
+            let known = line["nestray-".len()..].split([' ', '.', '=']).next().unwrap_or_default();
+            if !may_know.contains(&known) {
+                wrong.push(format!("{name} depends on {known}"));
+            }
+        }
+    }
+    check("dependencies against the direction", wrong);
+}
+
+#[test]
+fn every_crate_has_its_place_in_the_order() {
+    let known: Vec<&str> = MAY_KNOW.iter().map(|(name, _)| *name).collect();
+    let mut wrong = Vec::new();
+    for entry in fs::read_dir(root().join("crates")).expect("there are crates") {
+        let name = entry.expect("readable").file_name().into_string().expect("a plain name");
+        if !known.contains(&name.as_str()) {
+            wrong.push(name);
+        }
+    }
+    check("crates that the order does not name", wrong);
+}
+
+#[test]
+fn files_are_one_idea_long() {
+    let long = all_sources()
+        .into_iter()
+        .map(|(path, text)| (path, text.lines().count()))
+        .filter(|(_, lines)| *lines > FILE)
+        .map(|(path, lines)| format!("{} has {lines} lines", path.display()))
+        .collect();
+    check("files of more than 300 lines", long);
+}
+
+#[test]
+fn functions_fit_a_page() {
+    let mut long = Vec::new();
+    for (path, text) in all_sources() {
+        let lines: Vec<&str> = text.lines().collect();
+        for (start, line) in lines.iter().enumerate() {
+            let body = line.trim_start();
+            let words = ["fn ", "pub fn ", "pub(super) fn ", "pub(crate) fn ", "const fn "];
+            if !words.iter().any(|word| body.starts_with(word)) || line.trim_end().ends_with(';') {
+                continue;
+            }
+            let indent = line.len() - body.len();
+            let close = format!("{}}}", " ".repeat(indent));
+            let end = lines[start..].iter().position(|line| *line == close).unwrap_or(0);
+            if end + 1 > FUNCTION {
+                long.push(format!("{}:{}: {} lines", path.display(), start + 1, end + 1));
+            }
+        }
+    }
+    check("functions of more than 60 lines", long);
+}
+
+#[test]
+fn unsafe_code_stands_in_kernels_only() {
+    let keyword = ["uns", "afe "].concat();
+    let wrong = all_sources()
+        .into_iter()
+        .filter(|(path, _)| !path.ends_with("kernel.rs") && !path.ends_with("house.rs"))
+        .filter(|(_, text)| {
+            text.lines().any(|line| {
+                let code = line.split("//").next().unwrap_or_default();
+                [" ", "{", "(", "="]
+                    .iter()
+                    .any(|before| code.contains(&format!("{before}{keyword}")))
+                    || code.starts_with(&keyword)
+            })
+        })
+        .map(|(path, _)| path.display().to_string())
+        .collect();
+    check("files with unsafe code that are not kernels", wrong);
+}
+
+#[test]
+fn every_file_says_what_it_is() {
+    let wrong = all_sources()
+        .into_iter()
+        .filter(|(_, text)| !text.starts_with("//!"))
+        .map(|(path, _)| path.display().to_string())
+        .collect();
+    check("files without a head", wrong);
+}
+
+#[test]
+fn every_technique_has_its_page() {
+    let wrong = TECHNIQUES
+        .iter()
+        .map(|entry| format!("docs/techniques/{}.md", entry.name))
+        .filter(|page| !root().join(page).is_file())
+        .collect();
+    check("techniques without a page", wrong);
+}
+
+#[test]
+fn there_is_one_list_of_everything_technical() {
+    let names: Vec<&str> = TECHNIQUES.iter().map(|entry| entry.name).collect();
+    let mut sorted = names.clone();
+    sorted.sort_unstable();
+    sorted.dedup();
+    assert_eq!(sorted.len(), names.len(), "a name is used twice");
+}

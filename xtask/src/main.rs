@@ -1,0 +1,82 @@
+//! Chores of this repository: `cargo xtask test` before every change is handed in.
+#![expect(clippy::print_stdout, reason = "a program for people at a terminal")]
+
+use std::process::{Command, ExitCode};
+
+/// A chore: its name, what it does, and the commands it runs, each with its environment.
+struct Chore {
+    name: &'static str,
+    about: &'static str,
+    steps: &'static [Step],
+}
+
+struct Step {
+    env: &'static [(&'static str, &'static str)],
+    args: &'static [&'static str],
+}
+
+const fn cargo(args: &'static [&'static str]) -> Step {
+    Step { env: &[], args }
+}
+
+/// Builds of tests are optimised: they compare millions of rays.
+const CHORES: &[Chore] = &[
+    Chore {
+        name: "test",
+        about: "formatting, lints, documentation, all tests: what continuous integration runs",
+        steps: &[
+            cargo(&["fmt", "--all", "--check"]),
+            cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]),
+            Step {
+                env: &[("RUSTDOCFLAGS", "-D warnings")],
+                args: &["doc", "--workspace", "--no-deps"],
+            },
+            cargo(&["test", "--workspace", "--release"]),
+        ],
+    },
+    Chore {
+        name: "conformance",
+        about: "every technique and ten million rays through random nests, against lists",
+        steps: &[
+            Step {
+                env: &[("NESTRAY_RAYS", "10000000")],
+                args: &["test", "--release", "-p", "nestray-tests", "--test", "nests"],
+            },
+            Step {
+                env: &[("NESTRAY_RAYS", "400000")],
+                args: &["test", "--release", "-p", "nestray-tests", "--test", "conformance"],
+            },
+            Step {
+                env: &[("NESTRAY_RAYS", "40000000")],
+                args: &["test", "--release", "-p", "nestray-tests", "--test", "watertight"],
+            },
+        ],
+    },
+];
+
+fn main() -> ExitCode {
+    let name = std::env::args().nth(1).unwrap_or_default();
+    let Some(chore) = CHORES.iter().find(|chore| chore.name == name) else {
+        println!("cargo xtask CHORE, one of:");
+        for chore in CHORES {
+            println!("  {:12} {}", chore.name, chore.about);
+        }
+        return ExitCode::from(2);
+    };
+    for step in chore.steps {
+        println!("\n> cargo {}", step.args.join(" "));
+        let mut command = Command::new(env!("CARGO"));
+        match command.args(step.args).envs(step.env.iter().copied()).status() {
+            Ok(status) if status.success() => {}
+            Ok(status) => {
+                println!("cargo {}: {status}", step.args.join(" "));
+                return ExitCode::FAILURE;
+            }
+            Err(error) => {
+                println!("cargo cannot be started: {error}");
+                return ExitCode::FAILURE;
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}
