@@ -138,7 +138,11 @@ mod tests {
             backward: !case.is_multiple_of(2),
             u: numbers.slopes(),
             v: numbers.slopes(),
-            farthest: if case.is_multiple_of(5) { numbers.between(0.5, 4.0) } else { f32::INFINITY },
+            farthest: if case.is_multiple_of(5) {
+                numbers.between(0.5, 4.0)
+            } else {
+                f32::INFINITY
+            },
         }
     }
 

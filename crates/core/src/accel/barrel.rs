@@ -80,109 +80,158 @@ impl Lists {
     }
 }
 
+/// All rays in flight.
+struct InFlight<Cursor, Probe> {
+    slots: [Slot<Cursor, Probe>; RAYS],
+    trails: [Trail; RAYS],
+    lists: Lists,
+    /// The next ray to let in.
+    next: usize,
+}
+
+/// Where answers go: hits, or whether something is hit.
+type Answers<'a> = (&'a mut [Hit], &'a mut [bool]);
+
+impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
+    #[inline(always)]
+    fn new(rays: usize) -> Self {
+        let empty = Slot {
+            cursor: Cursor::default(),
+            limit: 0.0,
+            at: Step::DONE,
+            ray: 0,
+            stamp: Stamp::NONE,
+            probe: Probe::default(),
+        };
+        let mut lists = Lists { onward: Slots::NONE, leaf: Slots::NONE, free: Slots::NONE };
+        for slot in 0..RAYS.min(rays) {
+            lists.free.push_if(slot as u32, true);
+        }
+        let trails = [const { Trail::new() }; RAYS];
+        Self { slots: [empty; RAYS], trails, lists, next: 0 }
+    }
+}
+
 impl<T: Technique, C: Children> Accel<T, C> {
-    /// Traces all `rays`; fills `hits`, or `blocked` if `ANY`.
+    /// Traces all `rays`; fills the hits, or whether something is hit if `ANY`.
     #[inline(always)]
     pub(super) fn barrel<S: Simd, const ANY: bool>(
         &self,
         simd: S,
         index: &T,
         rays: &[Ray],
-        (hits, blocked): (&mut [Hit], &mut [bool]),
+        mut answers: Answers<'_>,
         scratch: &mut Scratch,
     ) {
-        let empty = Slot {
-            cursor: T::Cursor::default(),
-            limit: 0.0,
-            at: Step::DONE,
-            ray: 0,
-            stamp: Stamp::NONE,
-            probe: C::Probe::default(),
-        };
-        let mut slots = [empty; RAYS];
-        let mut trails = [const { Trail::new() }; RAYS];
-        let mut lists = Lists { onward: Slots::NONE, leaf: Slots::NONE, free: Slots::NONE };
-        for slot in 0..RAYS.min(rays.len()) {
-            lists.free.push_if(slot as u32, true);
-        }
-        let mut next = 0;
+        let mut flight = InFlight::<T::Cursor, C::Probe>::new(rays.len());
         loop {
-            // Let new rays in where others are done.
-            for i in 0..lists.free.drain() {
-                let id = lists.free.get(i);
-                let (slot, trail) =
-                    (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
-                scratch.mailbox.close(slot.stamp);
-                slot.stamp = Stamp::NONE;
-                if ANY {
-                    while next < rays.len() && blocked[next] {
-                        next += 1;
-                    }
-                }
-                let Some(ray) = rays.get(next) else { continue };
-                slot.limit = if ANY { ray.t_max() } else { hits[next].t };
-                let mut walk = Walk { ray, trail, family: &self.members };
-                (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
-                slot.probe = self.members.children.probe(ray);
-                slot.ray = next as u32;
-                next += 1;
-                lists.sort_in(id, slot.at);
-            }
-            if lists.onward.count + lists.leaf.count == 0 {
-                if lists.free.count == 0 {
+            self.let_in::<S, ANY>(simd, index, rays, &answers, (&mut flight, scratch));
+            if flight.lists.onward.count + flight.lists.leaf.count == 0 {
+                if flight.lists.free.count == 0 {
                     return;
                 }
                 continue;
             }
-            while lists.onward.count > FEW || (lists.onward.count > 0 && lists.leaf.count == 0) {
-                for i in 0..lists.onward.drain() {
-                    let id = lists.onward.get(i);
-                    let (slot, trail) =
-                        (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
-                    let ray = &rays[slot.ray as usize];
-                    let mut walk = Walk { ray, trail, family: &self.members };
-                    slot.at = index.step::<S, Asks<ANY, true>>(
-                        simd,
-                        &mut walk,
-                        &mut slot.cursor,
-                        slot.at,
-                        slot.limit,
-                    );
-                    self.fetch(index, &slot.cursor, slot.at);
-                    lists.sort_in(id, slot.at);
+            while flight.lists.onward.count > FEW
+                || (flight.lists.onward.count > 0 && flight.lists.leaf.count == 0)
+            {
+                self.step_all::<S, ANY>(simd, index, rays, &mut flight);
+            }
+            self.serve_leaves::<S, ANY>(simd, index, rays, &mut answers, (&mut flight, scratch));
+        }
+    }
+
+    /// Lets new rays in where others are done.
+    #[inline(always)]
+    fn let_in<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &T,
+        rays: &[Ray],
+        (hits, blocked): &Answers<'_>,
+        (flight, scratch): (&mut InFlight<T::Cursor, C::Probe>, &mut Scratch),
+    ) {
+        let InFlight { slots, trails, lists, next } = flight;
+        for i in 0..lists.free.drain() {
+            let id = lists.free.get(i);
+            let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+            scratch.mailbox.close(slot.stamp);
+            slot.stamp = Stamp::NONE;
+            if ANY {
+                while *next < rays.len() && blocked[*next] {
+                    *next += 1;
                 }
             }
-            for i in 0..lists.leaf.drain() {
-                let id = lists.leaf.get(i);
-                let (slot, trail) =
-                    (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
-                let nth = slot.ray as usize;
-                let ray = &rays[nth];
-                let this = This { index, ray, probe: &slot.probe, cursor: &slot.cursor };
-                let leaf = slot.at.as_leaf();
-                if ANY {
-                    let hit = self.any_in_leaf(simd, leaf, &this, &mut slot.stamp, scratch);
-                    blocked[nth] |= hit;
-                    slot.limit = if hit { f32::NEG_INFINITY } else { slot.limit };
-                } else {
-                    let out = (&mut hits[nth], &mut slot.stamp);
-                    if self.closest_in_leaf(simd, leaf, &this, out, scratch) {
-                        slot.limit = hits[nth].t;
-                    }
+            let Some(ray) = rays.get(*next) else { continue };
+            slot.limit = if ANY { ray.t_max() } else { hits[*next].t };
+            let mut walk = Walk { ray, trail, family: &self.members };
+            (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
+            slot.probe = self.members.children.probe(ray);
+            slot.ray = *next as u32;
+            *next += 1;
+            lists.sort_in(id, slot.at);
+        }
+    }
+
+    /// Moves every ray that stands at a node or cell by one.
+    #[inline(always)]
+    fn step_all<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &T,
+        rays: &[Ray],
+        flight: &mut InFlight<T::Cursor, C::Probe>,
+    ) {
+        let InFlight { slots, trails, lists, .. } = flight;
+        for i in 0..lists.onward.drain() {
+            let id = lists.onward.get(i);
+            let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+            let ray = &rays[slot.ray as usize];
+            let mut walk = Walk { ray, trail, family: &self.members };
+            let (at, limit) = (slot.at, slot.limit);
+            slot.at =
+                index.step::<S, Asks<ANY, true>>(simd, &mut walk, &mut slot.cursor, at, limit);
+            self.fetch(index, &slot.cursor, slot.at);
+            lists.sort_in(id, slot.at);
+        }
+    }
+
+    /// Tests the leaves that rays stand at, and moves those rays on.
+    #[inline(always)]
+    fn serve_leaves<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &T,
+        rays: &[Ray],
+        (hits, blocked): &mut Answers<'_>,
+        (flight, scratch): (&mut InFlight<T::Cursor, C::Probe>, &mut Scratch),
+    ) {
+        let InFlight { slots, trails, lists, .. } = flight;
+        for i in 0..lists.leaf.drain() {
+            let id = lists.leaf.get(i);
+            let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
+            let nth = slot.ray as usize;
+            let ray = &rays[nth];
+            let this = This { index, ray, probe: &slot.probe, cursor: &slot.cursor };
+            let leaf = slot.at.as_leaf();
+            if ANY {
+                let hit = self.any_in_leaf(simd, leaf, &this, &mut slot.stamp, scratch);
+                blocked[nth] |= hit;
+                slot.limit = if hit { f32::NEG_INFINITY } else { slot.limit };
+            } else {
+                let out = (&mut hits[nth], &mut slot.stamp);
+                if self.closest_in_leaf(simd, leaf, &this, out, scratch) {
+                    slot.limit = hits[nth].t;
                 }
-                let mut walk = Walk { ray, trail, family: &self.members };
-                slot.at = index.resume::<S, Asks<ANY, true>>(
-                    simd,
-                    &mut walk,
-                    &mut slot.cursor,
-                    slot.limit,
-                );
-                if ANY && slot.limit == f32::NEG_INFINITY {
-                    slot.at = Step::DONE;
-                }
-                self.fetch(index, &slot.cursor, slot.at);
-                lists.sort_in(id, slot.at);
             }
+            let mut walk = Walk { ray, trail, family: &self.members };
+            let limit = slot.limit;
+            slot.at = index.resume::<S, Asks<ANY, true>>(simd, &mut walk, &mut slot.cursor, limit);
+            if ANY && slot.limit == f32::NEG_INFINITY {
+                slot.at = Step::DONE;
+            }
+            self.fetch(index, &slot.cursor, slot.at);
+            lists.sort_in(id, slot.at);
         }
     }
 
