@@ -2,6 +2,7 @@
 //! our own, each hard on one technique or another.
 
 mod balls;
+mod bezier_teapot;
 mod clusters;
 mod demo;
 mod forest;
@@ -155,6 +156,8 @@ pub const SCENES: &[Entry] = &[
         "Haines: teapot in triangles on a chessboard"),
     entry!(tetra, "tetra", 6, 1..=11, "depth", "Haines: Sierpiński's tetrahedron"),
     entry!(tree, "tree", 11, 0..=19, "depth", "Haines: tree of cones, tiny on a huge field"),
+    entry!(bezier_teapot, "bezier-teapot", 6, 1..=500, "squares along a side of the board",
+        "the teapot's 32 Bezier patches, exact, on a chessboard"),
     entry!(stadium, "stadium", 1000, 10..=100_000, "length of the stadium over the teapot's",
         "teapot in a stadium of ten thousand chairs"),
     entry!(clusters, "clusters", 2, 1..=4, "depth",

@@ -47,7 +47,7 @@ pub(super) fn build(size: u32) -> Scene {
     let mut floor = Mesh::default();
     floor.quad(
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|[x, y]| DVec3::new(x * 150.0, y * 150.0, 0.0)),
+            .map(|[x, y]| DVec3::new(x * 400.0, y * 400.0, 0.0)),
     );
     scene.add(Geometry::mesh("ground", ground, floor.finish()));
     let corner = |x: f64, y: f64| DVec3::new(x * 30.0, y * 30.0, 3.5);
@@ -69,9 +69,9 @@ fn lattice(size: u32, middle: DVec3) -> Vec<AnyShape> {
         let cell = [i % many, i / many % many, i / (many * many)];
         let at = middle - 3.0 + DVec3::from_array(cell.map(f64::from)) * step;
         shapes.push(ball(at, step / 4.0));
-        for axis in 0..3 {
-            if cell[axis] < cells {
-                let to = at + DVec3::AXES[axis] * step;
+        for (axis, i) in DVec3::AXES.into_iter().zip(cell) {
+            if i < cells {
+                let to = at + axis * step;
                 shapes.push(bar(at, to, step / 16.0));
             }
         }
@@ -85,7 +85,7 @@ fn balls(size: u32, middle: DVec3) -> Vec<AnyShape> {
     shapes
 }
 
-/// Bars of length 40 side by side, about upright but no two alike.
+/// Bars of length 25 side by side, about upright but no two alike.
 fn bundle(size: u32, middle: DVec3) -> Vec<AnyShape> {
     let mut random = Random::new(6);
     let thin = 1.6 / f64::from(bars(size)).sqrt();
@@ -95,7 +95,7 @@ fn bundle(size: u32, middle: DVec3) -> Vec<AnyShape> {
     };
     let one = |_| {
         let base = middle + strew(&mut random) - DVec3::Z * 3.5;
-        let top = base + strew(&mut random) * 0.3 + DVec3::new(8.0, 6.0, 38.0);
+        let top = base + strew(&mut random) * 0.3 + DVec3::new(6.0, 4.0, 24.0);
         bar(base, top, thin)
     };
     (0..bars(size)).map(one).collect()

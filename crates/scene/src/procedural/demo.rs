@@ -28,11 +28,11 @@ const SQUARES: u32 = 20;
 const CELLS: u32 = 12;
 
 /// Beads of a ring, and rings of a coil.
-const BEADS: u32 = 14;
-const RINGS: u32 = 36;
+const BEADS: u32 = 12;
+const RINGS: u32 = 30;
 
 /// Trees around the plaza.
-const TREES: u32 = 190;
+const TREES: u32 = 200;
 
 /// Balls of clear glass: where, and how large.
 const GLASS: [([f64; 2], f64); 3] =
@@ -55,9 +55,10 @@ pub(super) fn build(size: u32) -> Scene {
     lay_ground(&mut scene);
     put_things(&mut scene, size);
     put_coils(&mut scene);
-    for (name, [x, y], turn, emission) in
-        [("warm", [-6.3, 3.2], 0.75, [5.0, 2.6, 0.9]), ("cool", [6.6, 2.6], -0.8, [0.9, 2.2, 4.6])]
-    {
+    for (name, [x, y], turn, emission) in [
+        ("warm", [-6.2, 3.2], 0.75, [1.9, 0.55, 0.1]),
+        ("cool", [6.2, 3.4], -0.75, [0.1, 0.5, 1.9]),
+    ] {
         put_door(&mut scene, name, upright(turn, 1.0, DVec3::new(x, y, 0.0)), emission);
     }
     plant_trees(&mut scene);
@@ -126,7 +127,7 @@ fn put_coils(scene: &mut Scene) {
     };
     let beads = (0..BEADS).map(|i| {
         let at = circle(i, BEADS).1;
-        ball(DVec3::new(at.x, 0.0, at.y) * 0.2, 0.042)
+        ball(DVec3::new(at.x, 0.0, at.y) * 0.24, 0.055)
     });
     let ring = add_group(scene, Geometry::shapes("beads", silver, beads.collect()));
     let rings = (0..RINGS).map(|i| {
@@ -167,9 +168,9 @@ fn plant_trees(scene: &mut Scene) {
     for i in 0..TREES {
         // Turns by the golden angle, farther out each time.
         let angle = f64::from(i) * 2.399_963 + random.between(-0.05, 0.05);
-        let away = 15.5 + 32.0 * (f64::from(i) / f64::from(TREES)).sqrt();
+        let away = 16.5 + 36.0 * (f64::from(i) / f64::from(TREES)).sqrt();
         let at = DVec3::new(away * libm::cos(angle), away * libm::sin(angle), -0.05);
-        let (turn, scale) = (random.between(0.0, TAU), random.between(0.75, 1.3));
+        let (turn, scale) = (random.between(0.0, TAU), random.between(1.0, 1.7));
         scene.place(tree, still(upright(turn, scale, at)));
     }
 }

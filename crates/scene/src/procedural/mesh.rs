@@ -25,9 +25,16 @@ impl Mesh {
         self.vertex(place)
     }
 
-    /// Gives the vertex just added a colour.
-    pub(super) fn color(&mut self, [r, g, b]: [f64; 3]) {
-        self.colors.push([r as f32, g as f32, b as f32, 1.0]);
+    /// Gives every vertex a colour by its place and normal.
+    pub(super) fn color_by(&mut self, color: impl Fn(DVec3, DVec3) -> [f64; 3]) {
+        let vector = |v: &[f32; 3]| DVec3::from_array(v.map(f64::from));
+        let vertices = self.positions.iter().zip(&self.normals);
+        self.colors = vertices
+            .map(|(place, normal)| {
+                let [r, g, b] = color(vector(place), vector(normal)).map(|x| x as f32);
+                [r, g, b, 1.0]
+            })
+            .collect();
     }
 
     /// A triangle between vertices that are there.

@@ -1,5 +1,7 @@
 //! A fractal mountain and four balls of glass [Haines 87], after [Fournier 82].
 
+use std::f64::consts::SQRT_2;
+
 use glam::DVec3;
 
 use super::standard::{Eye, Fill, SKY, Standard, rotation};
@@ -62,7 +64,7 @@ impl Mountain {
         let right = (z[1] + z[2]) / 2.0 + by(x + width, y + half);
         let upper = (z[2] + z[3]) / 2.0 + by(x + half, y + width);
         let left = (z[3] + z[0]) / 2.0 + by(x, y + half);
-        let middle = (z[0] + z[1] + z[2] + z[3]) / 4.0 + 1.414_213_6 * by(x + half, y + half);
+        let middle = (z[0] + z[1] + z[2] + z[3]) / 4.0 + SQRT_2 * by(x + half, y + half);
         self.grow(half, [x, y], [z[0], lower, middle, left]);
         self.grow(half, [x + half, y], [lower, z[1], right, middle]);
         self.grow(half, [x + half, y + half], [middle, right, z[2], upper]);

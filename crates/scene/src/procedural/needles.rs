@@ -4,7 +4,7 @@ use glam::DVec3;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::cylinder::Cylinder;
 
-use super::look::{camera, metal, outdoors, paint};
+use super::look::{camera, outdoors, paint};
 use super::mesh::{Mesh, across};
 use super::random::Random;
 use crate::geometry::Geometry;
@@ -31,7 +31,7 @@ pub(super) fn build(size: u32) -> Scene {
     }
     let mut scene = outdoors();
     let red = scene.add_material(paint("red", [0.7, 0.12, 0.08], 0.4));
-    let steel = scene.add_material(metal("steel", [0.6, 0.6, 0.62], 0.3));
+    let steel = scene.add_material(paint("steel", [0.45, 0.47, 0.5], 0.4));
     scene.add(Geometry::mesh("triangles", red, mesh.finish()));
     if !cylinders.is_empty() {
         scene.add(Geometry::shapes("cylinders", steel, cylinders));

@@ -16,8 +16,8 @@ pub(super) fn count(size: u32) -> u64 {
 pub(super) fn build(size: u32) -> Scene {
     let mut random = Random::new(1);
     let mut mesh = Mesh::default();
-    // About one triangle in the way of a ray through the middle, for any number of them.
-    let reach = 1.4 / f64::from(size).sqrt();
+    // About two triangles in the way of a ray through the middle, for any number of them.
+    let reach = 4.0 / f64::from(size).sqrt();
     for _ in 0..size {
         let middle = random.in_cube();
         mesh.triangle(std::array::from_fn(|_| middle + random.in_cube() * reach));

@@ -37,8 +37,8 @@ pub(super) fn build(size: u32) -> Scene {
     let concrete = scene.add_material(matte("concrete", [0.5, 0.49, 0.47]));
     let red = scene.add_material(paint("red", [0.6, 0.06, 0.05], 0.4));
     let china = scene.add_material(metal("copper", [0.9, 0.55, 0.35], 0.15));
-    scene.add(Geometry::mesh("field", grass, level(60.0, 40.0, 0.0)));
-    scene.add(Geometry::mesh("ground", concrete, level(600.0, 600.0, -0.5)));
+    scene.add(Geometry::mesh("field", grass, level(43.0, 29.0, 0.0)));
+    scene.add(Geometry::mesh("ground", concrete, level(600.0, 600.0, -0.05)));
     scene.add(Geometry::mesh("terraces", concrete, terraces()));
     let chair = scene.add_apart(Geometry::mesh("chair", red, chair()));
     let chair = Group { name: "chair".into(), geometries: vec![chair], places: Vec::new() };
@@ -53,9 +53,10 @@ pub(super) fn build(size: u32) -> Scene {
     let length = LENGTH / f64::from(size);
     scene.place(teapot, still(upright(0.0, length / 6.43, DVec3::ZERO)));
     let middle = DVec3::new(0.0, 0.0, 0.22 * length);
-    let near = middle + DVec3::new(0.5, -1.9, 0.75) * length;
-    scene.cameras.push(camera("teapot", near, middle, 40.0));
-    scene.cameras.push(camera("rim", DVec3::new(-93.0, -40.0, 45.0), middle, 55.0));
+    let near = middle + DVec3::new(0.6, -2.0, 0.42) * length;
+    let above = middle + DVec3::Z * (0.08 * length);
+    scene.cameras.push(camera("teapot", near, above, 40.0));
+    scene.cameras.push(camera("rim", DVec3::new(-84.0, -36.0, 44.0), middle, 55.0));
     scene
 }
 

@@ -1,6 +1,7 @@
 //! Mountains as one mesh: heights from layers of smooth noise [Musgrave 89].
 
 use glam::DVec3;
+use nestray_shapes::triangle_mesh::Triangles;
 
 use super::look::{camera, matte, outdoors};
 use super::mesh::Mesh;
@@ -22,46 +23,50 @@ pub(super) fn build(size: u32) -> Scene {
     scene
 }
 
-fn mountains(size: u32) -> nestray_shapes::triangle_mesh::Triangles {
-    let place = |i: u32| 2.0 * f64::from(i) / f64::from(size) - 1.0;
+fn mountains(size: u32) -> Triangles {
     let step = 2.0 / f64::from(size);
+    // One row and column more on every side, for the slopes.
+    let row = size as usize + 3;
+    let place = |i: usize| step * (i as f64 - 1.0) - 1.0;
+    let heights: Vec<f64> =
+        (0..row * row).map(|i| height(place(i % row), place(i / row))).collect();
     let mut mesh = Mesh::default();
-    for i in 0..(size + 1) * (size + 1) {
-        let (x, y) = (place(i % (size + 1)), place(i / (size + 1)));
-        let z = height(x, y);
-        let slope =
-            |dx: f64, dy: f64| (height(x + dx, y + dy) - height(x - dx, y - dy)) / (2.0 * step);
-        let normal = DVec3::new(-slope(step, 0.0), -slope(0.0, step), 1.0).normalize();
-        mesh.smooth_vertex(DVec3::new(x, y, z), normal);
-        mesh.color(color(z, normal.z));
-    }
+    mesh.corners(size, |j, i| {
+        let at = (j as usize + 1) * row + i as usize + 1;
+        let slope = |apart: usize| (heights[at + apart] - heights[at - apart]) / (2.0 * step);
+        let normal = DVec3::new(-slope(1), -slope(row), 1.0).normalize();
+        let (x, y) = (place(i as usize + 1), place(j as usize + 1));
+        (DVec3::new(x, y, heights[at]), normal)
+    });
     mesh.cells(size, 0);
+    mesh.color_by(color);
     mesh.finish()
 }
 
-/// Meadows, rock where it is steep, snow on top.
-fn color(height: f64, up: f64) -> [f64; 3] {
+/// Meadows, rock where it is steep, snow on top; by place and normal.
+fn color(place: DVec3, normal: DVec3) -> [f64; 3] {
+    let (height, up) = (place.z, normal.z);
     let blend = |a: [f64; 3], b: [f64; 3], part: f64| {
         let part = part.clamp(0.0, 1.0);
         [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
     };
-    let meadow = blend([0.13, 0.2, 0.06], [0.3, 0.28, 0.14], height * 4.0);
-    let snow = blend(meadow, [0.85, 0.87, 0.9], (height - 0.26) * 12.0);
-    blend([0.28, 0.24, 0.21], snow, (up - 0.6) * 5.0)
+    let meadow = blend([0.13, 0.2, 0.06], [0.3, 0.28, 0.14], height * 7.0);
+    let snow = blend(meadow, [0.85, 0.87, 0.9], (height - 0.15) * 20.0);
+    blend([0.28, 0.24, 0.21], snow, (up - 0.62) * 6.0)
 }
 
 /// Ridges at several scales, each smaller one only where the larger are high.
 fn height(x: f64, y: f64) -> f64 {
-    let (mut sum, mut size, mut often, mut weight) = (0.0, 0.28, 1.7, 1.0);
+    let (mut sum, mut size, mut often, mut weight) = (0.0, 0.17, 1.4, 1.0);
     for layer in 0..9 {
         let ridge = 1.0 - noise(x * often, y * often, layer).abs();
         let ridge = ridge * ridge * weight;
         sum += ridge * size;
-        weight = (ridge * 1.6).min(1.0);
+        weight = (ridge * 1.5).min(1.0);
         size *= 0.5;
         often *= 2.03;
     }
-    sum - 0.2
+    sum - 0.12
 }
 
 /// A smooth function between about −1 and 1 with features of size 1: random slopes at

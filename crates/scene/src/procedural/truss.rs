@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::look::{camera, metal, outdoors};
+use super::look::{camera, outdoors, paint};
 use super::mesh::Mesh;
 use super::standard::rotation;
 use crate::geometry::Geometry;
@@ -22,9 +22,8 @@ pub(super) fn build(size: u32) -> Scene {
     for i in 0..many.pow(3) {
         let cell = [i % many, i / many % many, i / (many * many)];
         let at = DVec3::from_array(cell.map(|x| f64::from(x) * step - 1.0));
-        for axis in 0..3 {
-            if cell[axis] < size {
-                let dir = DVec3::AXES[axis];
+        for (dir, i) in DVec3::AXES.into_iter().zip(cell) {
+            if i < size {
                 let scale = DVec3::splat(0.08) + dir * 0.92;
                 let bar = DMat3::from_diagonal(scale * step);
                 let middle = turned * (at + dir * (step / 2.0));
@@ -33,7 +32,7 @@ pub(super) fn build(size: u32) -> Scene {
         }
     }
     let mut scene = outdoors();
-    let steel = scene.add_material(metal("steel", [0.62, 0.58, 0.5], 0.45));
+    let steel = scene.add_material(paint("steel", [0.5, 0.2, 0.12], 0.5));
     scene.add(Geometry::mesh("truss", steel, mesh.finish()));
     scene.cameras.push(camera("whole", DVec3::new(2.6, -3.6, 1.7), DVec3::ZERO, 40.0));
     scene

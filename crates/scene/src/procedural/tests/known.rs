@@ -1,11 +1,13 @@
 //! Numbers that are known of the standard scenes.
 
 use glam::Vec3A;
+use nestray_core::ray::{Ray, RayKind};
 use nestray_shapes::any::AnyShape;
-use nestray_shapes::shape::Sides;
+use nestray_shapes::shape::{Shape, Sides};
 
 use crate::geometry::{Content, Geometry};
 use crate::light::LightKind;
+use crate::procedural::newell::{nets, surface};
 use crate::procedural::{find, generate, newell_mesh, newell_teapot};
 use crate::scene::Scene;
 
@@ -44,7 +46,11 @@ fn standard_scenes_have_the_published_counts() {
         ("jacks", None, [0, 6, 3]),
         ("sombrero", None, [1922, 0, 0]),
     ] {
-        assert_eq!(kinds(&generate(name, size).unwrap()), counts, "{name} at {size:?}");
+        assert_eq!(
+            kinds(&generate(name, size).expect("it can be made")),
+            counts,
+            "{name} at {size:?}"
+        );
     }
 }
 
@@ -52,7 +58,7 @@ fn standard_scenes_have_the_published_counts() {
 fn standard_scenes_grow_as_published() {
     for n in 1..=3usize {
         let check = |name: &str, counts: [usize; 3]| {
-            let scene = generate(name, Some(n as u32)).unwrap();
+            let scene = generate(name, Some(n as u32)).expect("it can be made");
             assert_eq!(kinds(&scene), counts, "{name} at {n}");
         };
         let power = |base: usize| base.pow(n as u32);
@@ -81,7 +87,7 @@ fn close(ours: &[f32], known: &[f32]) -> bool {
 #[test]
 fn some_primitives_are_where_they_are_known_to_be() {
     let last = |name: &str, geometry: usize, shape: usize| {
-        shapes(&generate(name, None).unwrap().geometries[geometry])[shape].clone()
+        shapes(&generate(name, None).expect("it can be made").geometries[geometry])[shape].clone()
     };
     let ball = |shape| {
         let AnyShape::Sphere(ball) = shape else { panic!("it is a ball") };
@@ -102,7 +108,7 @@ fn some_primitives_are_where_they_are_known_to_be() {
 
 #[test]
 fn the_mountain_is_as_deep_as_known() {
-    let scene = generate("mount", None).unwrap();
+    let scene = generate("mount", None).expect("it can be made");
     let AnyShape::Polygon(first) = &shapes(&scene.geometries[1])[0] else { panic!("a triangle") };
     assert!(close(&first.vertices()[1], &[-0.968_75, -1.0, -0.016_040_9]));
     assert!(close(&first.vertices()[2], &[-0.968_75, -0.968_75, -0.007_322_02]));
@@ -118,13 +124,13 @@ fn boxes_are_as_large_as_known() {
         ("rings", [19.68, 19.25, 19.68]),
         ("teapot", [8.0, 8.0, 3.15]),
         ("tetra", [2.0, 2.0, 2.0]),
-        ("tree", [100.0, 100.0, 3.14]),
+        ("tree", [100.0, 100.0, 3.136]),
         ("lattice", [1.0417, 1.0417, 1.0417]),
         ("shells", [44.4, 55.4, 50.7]),
         ("jacks", [1.71, 1.60, 1.52]),
         ("sombrero", [8.0, 1.6, 8.0]),
     ] {
-        let bounds = generate(name, None).unwrap().bounds();
+        let bounds = generate(name, None).expect("it can be made").bounds();
         let off = (bounds.max - bounds.min) / Vec3A::from_array(sizes) - 1.0;
         assert!(off.abs().max_element() < 0.02, "{name}: {bounds:?}");
     }
@@ -133,9 +139,9 @@ fn boxes_are_as_large_as_known() {
 #[test]
 fn only_glass_and_teapots_have_a_back() {
     for name in ["balls", "gears", "mount", "rings", "teapot", "tetra", "tree", "shells"] {
-        let scene = generate(name, None).unwrap();
+        let scene = generate(name, None).expect("it can be made");
         for geometry in &scene.geometries {
-            let whitted = scene.materials[geometry.material].whitted.unwrap();
+            let whitted = scene.materials[geometry.material].whitted.expect("it is of NFF");
             let both = whitted.t > 0.0 || geometry.name == "teapot";
             assert_eq!(geometry.sides == Sides::Both, both, "{name}: {}", geometry.name);
         }
@@ -144,7 +150,7 @@ fn only_glass_and_teapots_have_a_back() {
 
 #[test]
 fn lights_together_are_half_the_root_of_their_number() {
-    for entry in ["balls", "tree", "mount"].map(|name| find(name).unwrap()) {
+    for entry in ["balls", "tree", "mount"].map(|name| find(name).expect("it is known")) {
         let scene = (entry.build)(*entry.sizes.start());
         let count = scene.lights.len() as f32;
         for light in &scene.lights {
@@ -181,6 +187,22 @@ fn normals_of_the_teapot_agree_with_the_fronts_of_its_triangles() {
         for &v in face {
             let normal = Vec3A::from_array(mesh.normals()[v as usize]);
             assert!(normal.dot(front) > 0.0, "at {a} the normal {normal} is not {front}");
+        }
+    }
+}
+
+#[test]
+fn a_ray_at_the_exact_teapot_meets_it_where_the_patch_is() {
+    for (number, (net, patch)) in nets().iter().zip(newell_teapot()).enumerate() {
+        for i in 0..400 {
+            let (s, t) = (f64::from(i % 20) / 20.0 + 0.02, f64::from(i / 20) / 20.0 + 0.03);
+            let (place, normal) = surface(net, s, t);
+            let ray = Ray::new((place + normal).as_vec3a(), -normal.as_vec3a(), RayKind::Camera);
+            let mut nearest = f32::INFINITY;
+            patch.crossings(&ray, |crossing| {
+                nearest = nearest.min((crossing.t - 1.0).abs());
+            });
+            assert!(nearest < 1e-3, "patch {number} at {s} {t}: {nearest} away");
         }
     }
 }

@@ -8,27 +8,28 @@ fn a_name_that_is_not_known_is_answered_with_the_nearest() {
     for (asked, nearest) in
         [("ballz", "balls"), ("Gears", "gears"), ("moutn", "mount"), ("forrest", "forest")]
     {
-        let GenerateError::Unknown { nearest: found, .. } = find(asked).unwrap_err() else {
+        let GenerateError::Unknown { nearest: found, .. } = find(asked).expect_err("it is refused")
+        else {
             panic!("{asked} is not known")
         };
         assert_eq!(found, nearest);
     }
-    let message = generate("ballz", None).unwrap_err().to_string();
+    let message = generate("ballz", None).expect_err("it is refused").to_string();
     assert_eq!(message, "no scene is called \"ballz\"; did you mean \"balls\"?");
-    let long = find(&"x".repeat(1_000_000)).unwrap_err().to_string();
+    let long = find(&"x".repeat(1_000_000)).expect_err("it is refused").to_string();
     assert!(long.len() < 120, "{long}");
     assert!(find("").is_err());
 }
 
 #[test]
 fn a_size_that_is_too_small_or_too_large_is_refused_by_name() {
-    let message = generate("mount", Some(8)).unwrap_err().to_string();
+    let message = generate("mount", Some(8)).expect_err("it is refused").to_string();
     assert_eq!(message, "\"mount\" cannot be made at size 8: depth, from 1 to 7");
     for entry in SCENES {
         let large = entry.sizes.end().checked_add(1);
         let small = entry.sizes.start().checked_sub(1);
         for size in large.into_iter().chain(small).chain([u32::MAX]) {
-            let error = generate(entry.name, Some(size)).unwrap_err();
+            let error = generate(entry.name, Some(size)).expect_err("it is refused");
             assert!(matches!(error, GenerateError::Size { .. }), "{}: {error}", entry.name);
         }
     }
@@ -60,7 +61,7 @@ fn every_scene_is_whole_and_has_as_many_primitives_as_it_says() {
             let scene = (entry.build)(size);
             let stored: u64 = scene.geometries.iter().map(|g| u64::from(g.primitives())).sum();
             assert_eq!(stored, (entry.primitives)(size), "{} at {size}", entry.name);
-            Paths::new(&scene).unwrap();
+            Paths::new(&scene).expect("places can be numbered");
             let known = |count: usize, index: usize| assert!(index < count, "{}", entry.name);
             for geometry in &scene.geometries {
                 known(scene.materials.len(), geometry.material);

@@ -43,8 +43,9 @@ fn every_scene_of_haines_is_as_his_program_wrote_it() {
     let wrong: Vec<String> = files
         .into_iter()
         .filter_map(|(file, name, size)| {
-            let text = std::fs::read_to_string(folder.join(format!("{file}.nff"))).unwrap();
-            let scene = generate(name, Some(size)).unwrap();
+            let text = std::fs::read_to_string(folder.join(format!("{file}.nff")))
+                .expect("it can be read");
+            let scene = generate(name, Some(size)).expect("it can be made");
             compare(&read(&text), &items(&scene)).err().map(|what| format!("{file}: {what}"))
         })
         .collect();
@@ -114,7 +115,7 @@ fn items(scene: &Scene) -> Vec<Item> {
     let Projection::Perspective { degrees } = camera.projection else { panic!("it has an angle") };
     let mut view = flat(&[camera.from, camera.from + camera.forward, camera.up]);
     view.extend(numbers([degrees, camera.hither]));
-    view.extend(camera.resolution.unwrap().map(f64::from));
+    view.extend(camera.resolution.expect("it is given").map(f64::from));
     let mut items = vec![("background", numbers(sky)), ("view", view)];
     for light in &scene.lights {
         let LightKind::Point { position, fades: false } = light.kind else {
@@ -124,7 +125,7 @@ fn items(scene: &Scene) -> Vec<Item> {
     }
     for geometry in &scene.geometries {
         let material = &scene.materials[geometry.material];
-        let whitted = material.whitted.unwrap();
+        let whitted = material.whitted.expect("it is of NFF");
         let mut fill = numbers(whitted.color);
         fill.extend(numbers([whitted.kd, whitted.ks, whitted.shine, whitted.t, material.ior]));
         items.push(("fill", fill));
