@@ -164,3 +164,30 @@ fn there_is_one_list_of_everything_technical() {
     sorted.dedup();
     assert_eq!(sorted.len(), names.len(), "a name is used twice");
 }
+
+#[test]
+fn every_source_cited_is_in_the_list_of_references() {
+    let list = fs::read_to_string(root().join("docs/references.md")).expect("there is a list");
+    let mut wrong = Vec::new();
+    for (path, text) in all_sources() {
+        for cited in text.split('[').skip(1).filter_map(|rest| rest.split(']').next()) {
+            for key in cited.split(';').map(|key| key.split(',').next().unwrap_or_default().trim())
+            {
+                let mut words = key.split(' ');
+                let (name, year) =
+                    (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+                let is_key = words.next().is_none()
+                    && name.len() > 2
+                    && name.starts_with(|c: char| c.is_ascii_uppercase())
+                    && name.chars().all(|c| c.is_ascii_alphabetic())
+                    && (2..=3).contains(&year.len())
+                    && year.starts_with(|c: char| c.is_ascii_digit())
+                    && year[1..].starts_with(|c: char| c.is_ascii_digit());
+                if is_key && !list.contains(&format!("**[{key}]**")) {
+                    wrong.push(format!("{}: [{key}]", path.display()));
+                }
+            }
+        }
+    }
+    check("sources that docs/references.md does not name", wrong);
+}
