@@ -74,6 +74,9 @@ macro_rules! any_shape {
             fn crossings(&self, ray: &Ray, found: impl FnMut(Crossing)) {
                 match self { $(Self::$name(shape) => shape.crossings(ray, found),)+ }
             }
+            fn crossings_until(&self, ray: &Ray, limit: f32, found: impl FnMut(Crossing) -> f32) {
+                match self { $(Self::$name(shape) => shape.crossings_until(ray, limit, found),)+ }
+            }
             fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
                 match self { $(Self::$name(shape) => shape.surface(ray, crossing),)+ }
             }

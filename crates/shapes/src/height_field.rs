@@ -181,6 +181,32 @@ impl HeightField {
         });
     }
 
+    /// Walks along the ray within a range; `found` answers up to where.
+    fn walk(&self, ray: &Ray, mut wanted: [f64; 2], mut found: impl FnMut(Crossing) -> f64) {
+        let probe = Probe::new(ray);
+        let bounds = self.bounds();
+        let line = Line::new(ray, &bounds, [self.step(0), self.step(1)]);
+        let cells = self.counts.map(|count| count - 1);
+        let Some(range) = line.range(&bounds, cells, wanted) else { return };
+        line.each(TILE, [[0; 2], cells], range, |tile, range| {
+            if range[0] > wanted[1] || line.misses(self.tiles.of(tile), range) {
+                return;
+            }
+            let from = tile.map(|i| i * TILE);
+            let to = [(from[0] + TILE).min(cells[0]), (from[1] + TILE).min(cells[1])];
+            line.each(1, [from, to], range, |at, range| {
+                let row = at[1] * self.counts[0] + at[0];
+                let [a, b] = [self.heights[row], self.heights[row + 1]];
+                let next = row + self.counts[0];
+                let [c, d] = [self.heights[next], self.heights[next + 1]];
+                let heights = [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))];
+                if range[0] <= wanted[1] && !line.misses(heights, range) {
+                    self.look(&probe, at, |crossing, _, _| wanted[1] = found(crossing));
+                }
+            });
+        });
+    }
+
     /// The normal to shade a sample with, of any length.
     fn slope(&self, x: usize, z: usize) -> DVec3 {
         let [nx, nz] = self.counts;
@@ -230,26 +256,19 @@ impl Shape for HeightField {
     }
 
     fn crossings(&self, ray: &Ray, mut found: impl FnMut(Crossing)) {
-        let probe = Probe::new(ray);
-        let bounds = self.bounds();
-        let line = Line::new(ray, &bounds, [self.step(0), self.step(1)]);
-        let cells = self.counts.map(|count| count - 1);
-        let Some(range) = line.range(&bounds, cells) else { return };
-        line.each(TILE, [[0; 2], cells], range, |tile, range| {
-            if line.misses(self.tiles.of(tile), range) {
-                return;
-            }
-            let from = tile.map(|i| i * TILE);
-            let to = [0, 1].map(|axis| (from[axis] + TILE).min(cells[axis]));
-            line.each(1, [from, to], range, |at, range| {
-                let row = at[1] * self.counts[0] + at[0];
-                let [a, b] = [self.heights[row], self.heights[row + 1]];
-                let [c, d] = [row, row + 1].map(|i| self.heights[i + self.counts[0]]);
-                if !line.misses([a.min(b).min(c.min(d)), a.max(b).max(c.max(d))], range) {
-                    self.look(&probe, at, |crossing, _, _| found(crossing));
-                }
-            });
+        let all = [f64::NEG_INFINITY, f64::INFINITY];
+        self.walk(ray, all, |crossing| {
+            found(crossing);
+            f64::INFINITY
         });
+    }
+
+    fn crossings_until(&self, ray: &Ray, limit: f32, mut found: impl FnMut(Crossing) -> f32) {
+        // A hair more, for what rounds into the range.
+        let farthest = ray.t_max().next_up();
+        let up_to = |limit: f32| f64::from(limit.next_up().min(farthest));
+        let range = [f64::from(ray.t_min().next_down()), up_to(limit)];
+        self.walk(ray, range, |crossing| up_to(found(crossing)));
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {

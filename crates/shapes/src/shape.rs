@@ -53,6 +53,12 @@ pub trait Shape: std::fmt::Debug + Send + Sync {
     /// order; the range of the ray does not matter.
     fn crossings(&self, ray: &Ray, found: impl FnMut(Crossing));
 
+    /// The same, but only those within the range of the ray and up to `limit` are needed, and
+    /// then up to what `found` answers. For shapes that many rays cross many times.
+    fn crossings_until(&self, ray: &Ray, _limit: f32, mut found: impl FnMut(Crossing) -> f32) {
+        self.crossings(ray, |crossing| _ = found(crossing));
+    }
+
     /// What the surface looks like at a crossing found for this ray.
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface;
 
@@ -86,6 +92,9 @@ impl<S: Shape> Shape for &S {
     }
     fn crossings(&self, ray: &Ray, found: impl FnMut(Crossing)) {
         (**self).crossings(ray, found);
+    }
+    fn crossings_until(&self, ray: &Ray, limit: f32, found: impl FnMut(Crossing) -> f32) {
+        (**self).crossings_until(ray, limit, found);
     }
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {
         (**self).surface(ray, crossing)
@@ -151,20 +160,22 @@ impl<S: Shape> Single<S> {
         Self { geometry, primitive: 0, sides: Sides::Both, shape }
     }
 
-    /// Calls `found` with every crossing that counts as a hit.
+    /// Calls `found` with every crossing that counts as a hit, up to `limit`, then up to what it
+    /// answers.
     #[inline]
-    fn each_hit(&self, ray: &Ray, mut found: impl FnMut(&Crossing)) {
+    fn each_hit(&self, ray: &Ray, mut limit: f32, mut found: impl FnMut(&Crossing) -> f32) {
         if self.shape.is_flat() && ray.source() == self.source() {
             return;
         }
-        self.shape.crossings(ray, |crossing| {
+        self.shape.crossings_until(ray, limit, |crossing| {
             // Written so that NaN is refused.
             if crossing.t >= ray.t_min()
                 && crossing.t <= ray.t_max()
                 && self.sides.show(crossing.front)
             {
-                found(&crossing);
+                limit = found(&crossing);
             }
+            limit
         });
     }
 
@@ -209,24 +220,29 @@ impl<S: Shape> Object for Single<S> {
 
     fn closest_hit(&self, ray: &Ray, hit: &mut Hit, _scratch: &mut Scratch) -> bool {
         let mut nearer = false;
-        self.each_hit(ray, |found| {
+        self.each_hit(ray, hit.t, |found| {
             nearer |= hit.offer(found.t, found.uv, self.geometry, self.primitive);
+            hit.t
         });
         nearer
     }
 
     fn any_hit(&self, ray: &Ray, _scratch: &mut Scratch) -> bool {
         let mut any = false;
-        self.each_hit(ray, |_| any = true);
+        self.each_hit(ray, ray.t_max(), |_| {
+            any = true;
+            f32::NEG_INFINITY
+        });
         any
     }
 
     fn all_hits(&self, ray: &Ray, hits: &mut Vec<Hit>, _scratch: &mut Scratch) {
-        self.each_hit(ray, |found| {
+        self.each_hit(ray, ray.t_max(), |found| {
             let [u, v] = found.uv;
             let id =
                 Hit { geometry: self.geometry, primitive: self.primitive, ..Hit::none(found.t) };
             hits.push(Hit { u, v, ..id });
+            ray.t_max()
         });
     }
 

@@ -1,7 +1,7 @@
 //! A part of a patch seen so that it is nearly the identity, which says how many roots there
 //! can be and where.
 
-use super::net::{Grid, flipped};
+use super::net::{Grid, flipped, grid, row};
 use super::search::Part;
 
 /// The part through the inverse of its mean derivative: the first coordinate is about `u`,
@@ -26,10 +26,10 @@ impl Lens {
         if !inverse.as_flattened().iter().all(|x| x.is_finite()) {
             return None;
         }
-        let seen = inverse.map(|[p, q]| {
-            [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| p * part.x[i][j] + q * part.y[i][j]))
-        });
-        let noise = inverse.map(|[p, q]| rounding * (p.abs() + q.abs()));
+        let through = |[p, q]: [f64; 2]| grid(|i, j| p * part.x[i][j] + q * part.y[i][j]);
+        let seen = [through(inverse[0]), through(inverse[1])];
+        let noise = |[p, q]: [f64; 2]| rounding * (p.abs() + q.abs());
+        let noise = [noise(inverse[0]), noise(inverse[1])];
         Some(Self { seen, noise })
     }
 
@@ -43,10 +43,8 @@ impl Lens {
     #[inline]
     pub(super) fn spread(&self) -> [f64; 2] {
         const STEP: [[f64; 2]; 2] = [[1.0 / 3.0, 0.0], [0.0, 1.0 / 3.0]];
-        [0, 1].map(|row| {
-            let by = |axis: usize| farthest(&self.seen[row], axis, STEP[row][axis]);
-            3.0 * (by(0) + by(1))
-        })
+        let by = |row: usize, axis: usize| farthest(&self.seen[row], axis, STEP[row][axis]);
+        [3.0 * (by(0, 0) + by(0, 1)), 3.0 * (by(1, 0) + by(1, 1))]
     }
 
     /// About where the only root is, if it is there at all.
@@ -67,10 +65,10 @@ impl Lens {
 }
 
 /// Where the hull of a net, seen along its rows, meets zero.
-#[inline]
+#[inline(always)]
 fn crossing(grid: &Grid, noise: f64) -> [f64; 2] {
-    let low = grid.map(|row| row[0].min(row[1]).min(row[2].min(row[3])) - noise);
-    let high = grid.map(|row| row[0].max(row[1]).max(row[2].max(row[3])) + noise);
+    let low = row(|i| least(least(grid[i][0], grid[i][1]), least(grid[i][2], grid[i][3])) - noise);
+    let high = row(|i| most(most(grid[i][0], grid[i][1]), most(grid[i][2], grid[i][3])) + noise);
     let (mut from, mut to) = (3.0f64, 0.0f64);
     let mut add = |at: f64| (from, to) = (from.min(at), to.max(at));
     for (i, (&low_i, &high_i)) in low.iter().zip(&high).enumerate() {
@@ -95,30 +93,46 @@ fn crossing(grid: &Grid, noise: f64) -> [f64; 2] {
 }
 
 /// Whether control points lie on both sides of zero.
-#[inline]
+#[inline(always)]
 pub(super) fn straddles(grid: &Grid, rounding: f64) -> bool {
     let (mut low, mut high) = (grid[0], grid[0]);
     for row in &grid[1..] {
         for j in 0..4 {
-            low[j] = if row[j] < low[j] { row[j] } else { low[j] };
-            high[j] = if row[j] > high[j] { row[j] } else { high[j] };
+            low[j] = least(row[j], low[j]);
+            high[j] = most(row[j], high[j]);
         }
     }
     low.iter().any(|&x| x <= rounding) && high.iter().any(|&x| x >= -rounding)
 }
 
 /// How far the steps between control points along an axis are from `step`, at most.
-#[inline]
+#[inline(always)]
 pub(super) fn farthest(grid: &Grid, axis: usize, step: f64) -> f64 {
-    let mut most = [0.0f64; 3];
-    for (i, row) in grid.iter().enumerate() {
-        for j in 0..3 {
-            let next = if axis == 0 { grid[j + 1][i] - grid[j][i] } else { row[j + 1] - row[j] };
-            let off = (next - step).abs();
-            most[j] = if off > most[j] { off } else { most[j] };
+    let mut farthest = [0.0f64; 4];
+    if axis == 0 {
+        for pair in grid.windows(2) {
+            farthest = row(|j| most((pair[1][j] - pair[0][j] - step).abs(), farthest[j]));
+        }
+    } else {
+        for points in grid {
+            for (j, pair) in points.windows(2).enumerate() {
+                farthest[j] = most((pair[1] - pair[0] - step).abs(), farthest[j]);
+            }
         }
     }
-    most[0].max(most[1]).max(most[2])
+    most(most(farthest[0], farthest[1]), most(farthest[2], farthest[3]))
+}
+
+/// The lesser; a NaN only if it is the second: one instruction.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The greater, likewise.
+#[inline(always)]
+fn most(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// The value in the middle.

@@ -6,6 +6,22 @@ use nestray_core::ray::Ray;
 /// One coordinate of a net of control points, or of a part of one.
 pub(super) type Grid = [[f64; 4]; 4];
 
+/// A grid from what each place holds. Written out: `map` over arrays is not always inlined.
+#[inline(always)]
+pub(super) fn grid(at: impl Fn(usize, usize) -> f64) -> Grid {
+    let mut grid = [[0.0; 4]; 4];
+    for (i, row) in grid.iter_mut().enumerate() {
+        *row = self::row(|j| at(i, j));
+    }
+    grid
+}
+
+/// A row of a grid.
+#[inline(always)]
+pub(super) fn row(at: impl Fn(usize) -> f64) -> [f64; 4] {
+    [at(0), at(1), at(2), at(3)]
+}
+
 /// A patch with the ray as its z axis: a shear, so that patches that share control points
 /// see the same numbers.
 pub(super) struct Net {
@@ -38,16 +54,14 @@ impl Net {
         let [oa, ob, oc] = [a, b, c].map(|axis| f64::from(origin[axis]));
         let inverse = 1.0 / f64::from(dir[c]);
         let [sa, sb] = [a, b].map(|axis| f64::from(dir[axis]) * inverse);
-        let depth = points.map(|row| row.map(|point| f64::from(point[c]) - oc));
+        let depth = grid(|i, j| f64::from(points[i][j][c]) - oc);
         let aside = |axis: usize, from: f64, slope: f64| {
-            let at =
-                |i: usize, j: usize| (f64::from(points[i][j][axis]) - from) - slope * depth[i][j];
-            [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| at(i, j)))
+            grid(|i, j| (f64::from(points[i][j][axis]) - from) - slope * depth[i][j])
         };
         Self {
             x: aside(a, oa, sa),
             y: aside(b, ob, sb),
-            t: depth.map(|row| row.map(|depth| depth * inverse)),
+            t: grid(|i, j| depth[i][j] * inverse),
             along: dir[c] > 0.0,
         }
     }
@@ -83,21 +97,19 @@ impl Weights {
     }
 
     /// Value and derivatives, with these weights across rows and `v` along them.
-    #[inline]
+    #[inline(always)]
     fn blend(&self, v: &Self, grid: &Grid) -> [f64; 3] {
-        let mut row = [0.0; 4];
-        let mut row_slope = [0.0; 4];
-        for (i, points) in grid.iter().enumerate() {
-            for j in 0..4 {
-                row[j] += self.value[i] * points[j];
-                row_slope[j] += self.slope[i] * points[j];
-            }
-        }
-        [dot(&row, &v.value), dot(&row_slope, &v.value), dot(&row, &v.slope)]
+        let down = |w: &[f64; 4]| {
+            row(|j| {
+                (w[0] * grid[0][j] + w[1] * grid[1][j]) + (w[2] * grid[2][j] + w[3] * grid[3][j])
+            })
+        };
+        let (value, slope) = (down(&self.value), down(&self.slope));
+        [dot(&value, &v.value), dot(&slope, &v.value), dot(&value, &v.slope)]
     }
 }
 
-#[inline]
+#[inline(always)]
 fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
@@ -105,7 +117,7 @@ fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 /// The lower and the upper part of a net, cut across `u` [de Casteljau 59].
 #[inline]
 pub(super) fn cut(grid: &Grid, u: f64) -> [Grid; 2] {
-    let between = |a: &[f64; 4], b: &[f64; 4]| [0, 1, 2, 3].map(|j| a[j] + (b[j] - a[j]) * u);
+    let between = |a: &[f64; 4], b: &[f64; 4]| row(|j| a[j] + (b[j] - a[j]) * u);
     let [a, b, c, d] = grid;
     let (ab, bc, cd) = (between(a, b), between(b, c), between(c, d));
     let (abc, bcd) = (between(&ab, &bc), between(&bc, &cd));
@@ -122,6 +134,6 @@ pub(super) fn section(grid: &Grid, [from, to]: [f64; 2]) -> Grid {
 
 /// The same net with `u` and `v` in each other's place.
 #[inline]
-pub(super) fn flipped(grid: &Grid) -> Grid {
-    [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| grid[j][i]))
+pub(super) fn flipped(from: &Grid) -> Grid {
+    grid(|i, j| from[j][i])
 }

@@ -53,7 +53,7 @@ impl<'a> Search<'a> {
     pub(super) fn new(net: &'a Net) -> Self {
         let size = |grid: &Grid| {
             let flat = grid.as_flattened();
-            flat.iter().fold(0.0f64, |most, x| most.max(x.abs()))
+            flat.iter().fold(0.0f64, |most, x| if x.abs() <= most { most } else { x.abs() })
         };
         let reach = size(&net.x).max(size(&net.y));
         let mut search = Self {
@@ -170,14 +170,21 @@ impl<'a> Search<'a> {
 impl Part {
     /// Largest steps between control points, along `u` and along `v`.
     fn extent(&self) -> [f64; 2] {
-        [0, 1].map(|axis| farthest(&self.x, axis, 0.0).max(farthest(&self.y, axis, 0.0)))
+        let along = |axis| farthest(&self.x, axis, 0.0).max(farthest(&self.y, axis, 0.0));
+        [along(0), along(1)]
     }
 
     /// The halves by `v`, or else by `u`.
     fn halved(&self, by_v: bool) -> [Self; 2] {
-        let [x, y] = [&self.x, &self.y].map(|grid| {
-            if by_v { cut(&flipped(grid), 0.5).map(|half| flipped(&half)) } else { cut(grid, 0.5) }
-        });
+        let halves = |grid: &Grid| {
+            if by_v {
+                let [low, high] = cut(&flipped(grid), 0.5);
+                [flipped(&low), flipped(&high)]
+            } else {
+                cut(grid, 0.5)
+            }
+        };
+        let (x, y) = (halves(&self.x), halves(&self.y));
         let axis = usize::from(by_v);
         let mut size = self.size;
         size[axis] *= 0.5;
@@ -191,15 +198,16 @@ impl Part {
 
     /// The part of it in a range of `u` and of `v`, in `[0, 1]` of this one.
     fn within(&self, [u, v]: [[f64; 2]; 2]) -> Self {
-        let [x, y] =
-            [&self.x, &self.y].map(|grid| flipped(&section(&flipped(&section(grid, u)), v)));
+        let inner = |grid: &Grid| flipped(&section(&flipped(&section(grid, u)), v));
+        let (x, y) = (inner(&self.x), inner(&self.y));
         let size = [self.size[0] * (u[1] - u[0]), self.size[1] * (v[1] - v[0])];
         Self { x, y, from: self.place([u[0], v[0]]), size }
     }
 
     /// A place in it, given in `[0, 1]`, in the patch.
     fn place(&self, uv: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|axis| self.from[axis] + uv[axis] * self.size[axis])
+        let at = |axis: usize| self.from[axis] + uv[axis] * self.size[axis];
+        [at(0), at(1)]
     }
 
     /// Whether a root is in it, or over its edge by less than neighbours may differ.

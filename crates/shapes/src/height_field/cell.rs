@@ -60,19 +60,21 @@ impl Cell {
         probe: &Probe,
         mut found: impl FnMut(usize, (f64, bool), [f64; 3]),
     ) {
-        let seen = self.corners.map(|corner| probe.seen(corner));
+        let [a, b, c, d] = self.corners;
+        let seen = [probe.seen(a), probe.seen(b), probe.seen(c), probe.seen(d)];
         // Swapping the points changes exactly the sign, and a rounded difference is never on
         // the wrong side of zero: so both triangles at an edge agree on who is hit.
         let edge = |a: usize, b: usize| seen[a][0] * seen[b][1] - seen[a][1] * seen[b][0];
         for half in 0..2 {
             let [a, b, c] = self.half(half);
-            let edges = [edge(c, b), edge(a, c), edge(b, a)];
-            let inside = edges.iter().all(|&e| e >= 0.0) || edges.iter().all(|&e| e <= 0.0);
-            let sum = edges[0] + edges[1] + edges[2];
+            let [u, v, w] = [edge(c, b), edge(a, c), edge(b, a)];
+            let inside =
+                (u >= 0.0) & (v >= 0.0) & (w >= 0.0) | (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
+            let sum = u + v + w;
             if !inside || sum == 0.0 {
                 continue;
             }
-            let weights = edges.map(|e| e / sum);
+            let weights = [u / sum, v / sum, w / sum];
             let depth = weights[0] * seen[a][2] + weights[1] * seen[b][2] + weights[2] * seen[c][2];
             let t = self.within(probe, half, depth * probe.slope[2]);
             found(half, (t, (probe.slope[2] > 0.0) == (sum > 0.0)), weights);

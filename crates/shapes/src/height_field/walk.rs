@@ -14,6 +14,7 @@ pub(super) const TILE: usize = 16;
 pub(super) struct Tiles {
     across: usize,
     ranges: Arc<[[f32; 2]]>,
+    all: [f32; 2],
 }
 
 impl Tiles {
@@ -31,7 +32,10 @@ impl Tiles {
             }
             range
         };
-        Self { across: tiles[0], ranges: (0..tiles[0] * tiles[1]).map(range).collect() }
+        let ranges: Arc<[[f32; 2]]> = (0..tiles[0] * tiles[1]).map(range).collect();
+        let join = |a: [f32; 2], b: &[f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let all = ranges.iter().fold([f32::INFINITY, f32::NEG_INFINITY], join);
+        Self { across: tiles[0], ranges, all }
     }
 
     pub(super) fn of(&self, [x, z]: [usize; 2]) -> [f32; 2] {
@@ -39,9 +43,7 @@ impl Tiles {
     }
 
     pub(super) fn all(&self) -> [f32; 2] {
-        self.ranges.iter().fold([f32::INFINITY, f32::NEG_INFINITY], |all, range| {
-            [all[0].min(range[0]), all[1].max(range[1])]
-        })
+        self.all
     }
 }
 
@@ -81,8 +83,14 @@ impl Line {
         }
     }
 
-    /// Which part of the ray is over the grid and between the lowest and the highest sample.
-    pub(super) fn range(&self, bounds: &Aabb, cells: [usize; 2]) -> Option<[f64; 2]> {
+    /// Which of the wanted part of the ray is over the grid and between the lowest and the
+    /// highest sample.
+    pub(super) fn range(
+        &self,
+        bounds: &Aabb,
+        cells: [usize; 2],
+        wanted: [f64; 2],
+    ) -> Option<[f64; 2]> {
         let slab = |start: f64, step: f64, low: f64, high: f64| {
             if step == 0.0 {
                 return (low <= start && start <= high)
@@ -101,11 +109,12 @@ impl Line {
         let range = [x[0].max(z[0]).max(up[0]), x[1].min(z[1]).min(up[1])];
         // Widened: the cells under its very ends are wanted too.
         let more = (range[0].abs() + range[1].abs()) * 1e-14;
-        (range[0] <= range[1] + 2.0 * more).then_some([range[0] - more, range[1] + more])
+        let range = [(range[0] - more).max(wanted[0]), (range[1] + more).min(wanted[1])];
+        (range[0] <= range[1]).then_some(range)
     }
 
-    /// Calls `visit` with the squares of `size` cells that the ray is over during `range`,
-    /// and when; only those with a cell in `from .. to`.
+    /// Calls `visit` with the squares of `size` cells that the ray is over during `range`, in
+    /// order along the main axis, and when; only those with a cell in `from .. to`.
     pub(super) fn each(
         &self,
         size: usize,
@@ -120,7 +129,10 @@ impl Line {
             let first = ((a.min(b) - slack) / edge).floor().max((from[axis] / size) as f64);
             let last = ((a.max(b) + slack) / edge).floor().min(((to[axis] - 1) / size) as f64);
             // Ends before it begins where there is none, and NaN is none.
-            if first <= last { first as usize..last as usize + 1 } else { 0..0 }
+            let squares = if first <= last { first as usize..last as usize + 1 } else { 0..0 };
+            let (count, end) = (squares.len(), squares.end);
+            let backward = self.step[axis] < 0.0;
+            (0..count).map(move |n| if backward { end - 1 - n } else { squares.start + n })
         };
         let at = |axis: usize, t: f64| match self.step[axis] {
             0.0 => self.start[axis],

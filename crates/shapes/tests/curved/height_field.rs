@@ -1,9 +1,12 @@
 //! Height fields: against their triangles one by one, and between them.
 
 use glam::{DVec3, Vec3A};
+use nestray_core::hit::Hit;
+use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind};
+use nestray_core::scratch::Scratch;
 use nestray_shapes::height_field::{HeightField, HeightFieldError, Relief};
-use nestray_shapes::shape::Shape;
+use nestray_shapes::shape::{Shape, Single};
 
 use crate::numbers::{Numbers, at, crossings};
 
@@ -118,6 +121,35 @@ fn a_hit_has_the_surface_of_its_triangle() {
             assert!(level.length() < 1e-4, "seed 3, case {case}");
         }
     }
+}
+
+#[test]
+fn the_nearest_hit_is_the_first_of_all() {
+    let mut numbers = Numbers(4);
+    let mut scratch = Scratch::new();
+    let mut several = 0;
+    for case in 0..3_000 {
+        let counts = [2 + case % 90, 2 + case % 41];
+        let object = Single::new(0, field(&mut numbers, counts, Vec3A::ZERO));
+        let level = Vec3A::new(1.0, 0.1, 1.0);
+        let ray = numbers.ray_at(Vec3A::ZERO, 1.0, 3.0);
+        let ray = Ray::new(ray.origin() * level, ray.dir() * level, RayKind::Camera);
+        for ray in [ray, ray.between(numbers.next(), numbers.between(0.5, 3.0))] {
+            let mut all = Vec::new();
+            object.all_hits(&ray, &mut all, &mut scratch);
+            all.sort_by(|a, b| a.t.total_cmp(&b.t));
+            let inside = |t: f32| ray.t_min() <= t && t <= ray.t_max();
+            let line = crossings(&object.shape, &ray);
+            let expected = line.iter().filter(|hit| inside(hit.t)).map(|hit| hit.t);
+            assert!(all.iter().map(|hit| hit.t).eq(expected), "seed 4, case {case}");
+            let mut hit = Hit::none(ray.t_max());
+            let found = object.closest_hit(&ray, &mut hit, &mut scratch);
+            assert_eq!(found.then_some(hit.t), all.first().map(|hit| hit.t), "seed 4, case {case}");
+            assert_eq!(object.any_hit(&ray, &mut scratch), found, "seed 4, case {case}");
+            several += usize::from(all.len() > 3);
+        }
+    }
+    assert!(several > 300, "{several}");
 }
 
 #[test]

@@ -4,3 +4,4 @@ mod bezier;
 mod csg;
 mod height_field;
 mod numbers;
+mod roots;
