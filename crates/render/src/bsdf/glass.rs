@@ -1,0 +1,82 @@
+//! Clear boundaries, smooth or rough: they mirror and refract.
+//!
+//! What is followed is radiance over the square of the index, so that light that enters and
+//! leaves again comes out as bright as it was.
+
+use glam::Vec3A;
+use nestray_core::ray::RayKind;
+
+use crate::directions::{mirrored, refracted};
+
+use super::Scatter;
+use super::fresnel::dielectric;
+use super::ggx::{Ggx, SMOOTHEST};
+
+/// A clear boundary.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Glass {
+    /// How much slower light is behind it.
+    eta: f32,
+    /// None if it is smooth, or nothing at all.
+    rough: Option<Ggx>,
+    /// What light that passes is multiplied by.
+    tint: Vec3A,
+}
+
+impl Glass {
+    pub(crate) fn new(eta: f32, roughness: f32, tint: Vec3A) -> Self {
+        let smooth = roughness < SMOOTHEST || eta == 1.0;
+        let rough = (!smooth).then(|| Ggx::new(roughness * roughness));
+        Self { eta, rough, tint }
+    }
+
+    pub(crate) fn is_sharp(&self) -> bool {
+        self.rough.is_none()
+    }
+
+    pub(crate) fn evaluate(&self, to_eye: Vec3A, to_light: Vec3A) -> (Vec3A, f32) {
+        let Some(ggx) = self.rough else { return (Vec3A::ZERO, 0.0) };
+        let (v, l) = (to_eye, to_light);
+        if v.z <= 0.0 || l.z == 0.0 {
+            return (Vec3A::ZERO, 0.0);
+        }
+        let through = l.z < 0.0;
+        let scale = if through { self.eta } else { 1.0 };
+        let h = (l * scale + v).normalize_or_zero();
+        let h = if h.z < 0.0 { -h } else { h };
+        let (along_v, along_l) = (v.dot(h), l.dot(h));
+        // A small mirror seen from behind by either.
+        if along_v <= 0.0 || along_l * l.z <= 0.0 {
+            return (Vec3A::ZERO, 0.0);
+        }
+        let mirror = dielectric(along_v, self.eta);
+        let seen = ggx.density_seen(v, h);
+        let both = ggx.seen_by_both(v, l) / ggx.seen(v);
+        let (density, tint) = if through {
+            let spread = along_l + along_v / self.eta;
+            (seen * along_l.abs() / (spread * spread) * (1.0 - mirror), self.tint)
+        } else {
+            (seen / (4.0 * along_v) * mirror, Vec3A::ONE)
+        };
+        (tint * (density * both), density)
+    }
+
+    pub(crate) fn sample(&self, to_eye: Vec3A, [which, u, w]: [f32; 3]) -> Option<Scatter> {
+        let h = self.rough.map_or(Vec3A::Z, |ggx| ggx.sample(to_eye, [u, w]));
+        let mirror = dielectric(to_eye.dot(h), self.eta);
+        let (dir, weight, kind) = if which < mirror {
+            (mirrored(to_eye, h), Vec3A::ONE, RayKind::Reflect)
+        } else {
+            (refracted(to_eye, h, self.eta)?, self.tint, RayKind::Refract)
+        };
+        if self.rough.is_none() {
+            return Some(Scatter { dir, weight, density: 0.0, sharp: true, kind });
+        }
+        if (dir.z > 0.0) != (kind == RayKind::Reflect) {
+            return None;
+        }
+        let (value, density) = self.evaluate(to_eye, dir);
+        let weight = value / density;
+        (density > 0.0).then_some(Scatter { dir, weight, density, sharp: false, kind })
+    }
+}

@@ -1,0 +1,190 @@
+//! The whole of it: tiles shared out to threads, waves of rays, pixels.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use nestray_core::counters::Counters;
+use nestray_core::object::Object;
+use nestray_core::scratch::Scratch;
+use nestray_scene::picture::Picture;
+use nestray_scene::scene::Scene;
+use nestray_scene::surfaces::Surfaces;
+
+use crate::eye::{Eye, Seen, Start};
+use crate::film::{Film, Keep, TileFilm};
+use crate::filter::Filter;
+use crate::heat;
+use crate::integrator::Integrate;
+use crate::integrator::ambient_occlusion::AmbientOcclusion;
+use crate::integrator::cost::Cost;
+use crate::integrator::path::{Direct, Path};
+use crate::integrator::whitted::Whitted;
+use crate::light_sampling::Lights;
+use crate::options::{Integrator, Options, RenderError};
+use crate::ray_counts::RayCounts;
+use crate::tile::{Tile, tiles};
+use crate::tracer::Tracer;
+use crate::watch::{Progress, Watch};
+
+/// What came of a render.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The picture: the main layer, then, as asked for, `cost`, `albedo`, `normal` (towards
+    /// the eye), `depth` (distance from where the ray began, infinite for nothing) and
+    /// `geometry` (−1 for nothing), the last two of the pixel's first sample.
+    pub picture: Picture,
+    /// How many rays there were.
+    pub rays: RayCounts,
+    /// What they did, if [`Integrator::Cost`] counted it.
+    pub counters: Counters,
+    /// Whether every sample was taken. Pixels without any are black.
+    pub complete: bool,
+}
+
+/// Renders a frame of a scene, its nodes resolved ([`Scene::frame`]); `world` holds its
+/// geometries under their numbers, and its instances under theirs.
+///
+/// The same scene and options give the same picture to the bit, whatever the nest, the
+/// threads, the tiles, the batches and the vector instructions.
+///
+/// # Errors
+/// If the options make no sense, or threads cannot be started.
+///
+/// # Panics
+/// If `world` reports hits that are not of the scene.
+pub fn render(
+    scene: &Scene,
+    world: &dyn Object,
+    options: &Options,
+    watch: &dyn Watch,
+) -> Result<Rendered, RenderError> {
+    render_by(scene, world, options, watch, Direct::Both)
+}
+
+/// [`render`], with a say in how paths find lights.
+pub(crate) fn render_by(
+    scene: &Scene,
+    world: &dyn Object,
+    options: &Options,
+    watch: &dyn Watch,
+    direct: Direct,
+) -> Result<Rendered, RenderError> {
+    options.check(scene)?;
+    let surfaces = Surfaces::new(scene)?;
+    let cost = options.integrator == Integrator::Cost;
+    let keep = Keep { layers: options.layers, cost };
+    let film = Film::new(options.window(), options.filter == Filter::Corners, keep);
+    let tiles = tiles(film.window(), options.shuffle);
+    let pixels: u64 = tiles.iter().map(|tile| tile.pixels() as u64).sum();
+    let job = Job {
+        world,
+        surfaces: &surfaces,
+        options,
+        eye: Eye::new(scene, options),
+        integrator: integrator(&surfaces, options, direct),
+        progress: Progress::new(watch, pixels * u64::from(options.samples)),
+        tiles,
+        next: AtomicUsize::new(0),
+        done: Mutex::new((film, RayCounts::default(), Counters::default())),
+    };
+    job.run()?;
+    let complete = job.progress.is_complete();
+    let (film, rays, counters) = job.done.into_inner().expect("no thread panicked");
+    let mut picture = film.develop();
+    if cost {
+        heat::paint(&mut picture);
+    }
+    Ok(Rendered { picture, rays, counters, complete })
+}
+
+fn integrator<'a>(
+    surfaces: &Surfaces<'a>,
+    options: &Options,
+    direct: Direct,
+) -> Box<dyn Integrate + 'a> {
+    let max_depth = options.max_depth;
+    match options.integrator {
+        Integrator::Whitted(whitted) => Box::new(Whitted { tree: whitted.tree, max_depth }),
+        Integrator::Path => Box::new(Path { lights: Lights::new(surfaces), max_depth, direct }),
+        Integrator::AmbientOcclusion { radius } => {
+            Box::new(AmbientOcclusion { radius: radius.unwrap_or(f32::INFINITY) })
+        }
+        Integrator::Cost => Box::new(Cost),
+    }
+}
+
+/// A render under way, shared by its threads.
+struct Job<'a> {
+    world: &'a dyn Object,
+    surfaces: &'a Surfaces<'a>,
+    options: &'a Options,
+    eye: Eye,
+    integrator: Box<dyn Integrate + 'a>,
+    progress: Progress<'a>,
+    tiles: Vec<Tile>,
+    /// The first tile that nobody has taken.
+    next: AtomicUsize,
+    done: Mutex<(Film, RayCounts, Counters)>,
+}
+
+impl Job<'_> {
+    fn run(&self) -> Result<(), RenderError> {
+        // Where there are no threads, one can still render.
+        if self.options.threads == 1 {
+            self.work();
+            return Ok(());
+        }
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.options.threads)
+            .build()
+            .map_err(|error| RenderError::Threads(error.to_string()))?;
+        pool.broadcast(|_| self.work());
+        Ok(())
+    }
+
+    /// What one thread does: takes tiles until there are none.
+    fn work(&self) {
+        let scratch = match (self.options.integrator, self.options.level) {
+            (Integrator::Cost, _) => Scratch::counting(),
+            (_, Some(level)) => Scratch::with_level(level),
+            (_, None) => Scratch::new(),
+        };
+        let mut tracer = Tracer::new(self.world, self.surfaces, scratch, self.options.wave);
+        let mut seen = Vec::new();
+        while let Some(&tile) = self.tiles.get(self.next.fetch_add(1, Ordering::Relaxed)) {
+            if self.progress.stopped() {
+                break;
+            }
+            let film = self.tile(&mut tracer, tile, &mut seen);
+            self.done.lock().expect("no thread panicked").0.put(&film);
+        }
+        let mut done = self.done.lock().expect("no thread panicked");
+        done.1.add(&tracer.counts);
+        done.2.add(&tracer.scratch.counters);
+    }
+
+    /// Renders a tile wave by wave, pixel after pixel, all samples of each.
+    fn tile(&self, tracer: &mut Tracer<'_>, tile: Tile, seen: &mut Vec<Seen>) -> TileFilm {
+        let mut film = TileFilm::new(tile);
+        let samples = self.options.samples as usize;
+        let all = tile.pixels() * samples;
+        let wave = self.integrator.starts(self.options.wave);
+        let mut done = 0;
+        while done < all && !self.progress.stopped() {
+            let end = done.saturating_add(wave).min(all);
+            let start = |i: usize| self.eye.start(tile.pixel(i / samples), (i % samples) as u32);
+            let starts: Vec<Start> = (done..end).map(start).collect();
+            let before = tracer.counts.total().cast;
+            self.integrator.trace(tracer, &starts, seen);
+            for (i, (start, seen)) in starts.iter().zip(&*seen).enumerate() {
+                film.add((done + i) / samples, seen, start.weight);
+            }
+            self.progress.add((end - done) as u64, tracer.counts.total().cast - before);
+            done = end;
+        }
+        film
+    }
+}
+
+#[cfg(test)]
+mod tests;
