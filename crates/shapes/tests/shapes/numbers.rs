@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3A};
 use nestray_core::ray::{Ray, RayKind};
 
-/// SplitMix64 [Steele 14].
+/// `SplitMix64` [Steele 14].
 #[derive(Debug)]
 pub(crate) struct Numbers(pub(crate) u64);
 
