@@ -7,6 +7,18 @@ pub mod load;
 
 pub mod error;
 
+pub mod complete;
+
+pub mod nff;
+
+pub mod obj;
+
+pub mod ply;
+
+pub mod stl;
+
+pub mod off;
+
 pub mod atomic;
 
 pub mod write;

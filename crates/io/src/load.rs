@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use flate2::read::MultiGzDecoder;
 use nestray_scene::scene::Scene;
 
+use crate::complete;
 use crate::error::{LoadError, Spot, Warning};
+use crate::{nff, obj, off, ply, stl};
 
 /// What readers may do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +49,13 @@ struct Format {
 }
 
 /// All formats; of those that a file may be of by its first bytes, the first.
-const FORMATS: &[Format] = &[];
+const FORMATS: &[Format] = &[
+    Format { extensions: &["nff"], begins: nff::begins, read: nff::read },
+    Format { extensions: &["obj"], begins: obj::begins, read: obj::read },
+    Format { extensions: &["ply"], begins: ply::begins, read: ply::read },
+    Format { extensions: &["stl"], begins: stl::begins, read: stl::read },
+    Format { extensions: &["off"], begins: off::begins, read: off::read },
+];
 
 impl Default for LoadOptions {
     /// Files up to 4 GiB; scenes are completed.
@@ -130,7 +138,11 @@ pub fn read(bytes: &[u8], source: &Source) -> Result<Loaded, LoadError> {
         let message = if bytes.is_empty() { "is empty" } else { "is of no known format" };
         return Err(source.spot().error(message).hint(format!("known are {}", known.join(", "))));
     };
-    (format.read)(bytes, source)
+    let mut loaded = (format.read)(bytes, source)?;
+    if source.options.complete {
+        complete::complete(&mut loaded.scene);
+    }
+    Ok(loaded)
 }
 
 /// The extension in lower case, that before `.gz` if it is that; may be empty.

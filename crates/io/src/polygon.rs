@@ -173,8 +173,8 @@ impl Cutter {
 mod tests {
     use super::*;
 
-    fn area(corners: &[[f32; 3]]) -> glam::DVec3 {
-        let at = |i: usize| glam::Vec3::from_array(corners[i % corners.len()]).as_dvec3();
+    fn area(corners: &[[f32; 3]]) -> DVec3 {
+        let at = |i: usize| Vec3::from_array(corners[i % corners.len()]).as_dvec3();
         (0..corners.len()).map(|i| at(i).cross(at(i + 1))).sum()
     }
 
