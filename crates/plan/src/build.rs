@@ -1,5 +1,7 @@
 //! From a plan and a scene to the objects.
 
+mod rests;
+
 use std::sync::Arc;
 
 use nestray_core::by_kind::{ByKind, Case};
@@ -14,6 +16,7 @@ use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::triangle_mesh::TriangleMesh;
 use nestray_techniques::registry::{self, Entry, Members};
+use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::check::{Resolved, Tree, resolve};
@@ -29,13 +32,46 @@ use crate::plan::{Nest, Plan};
 /// # Errors
 /// If the plan does not pass [`check`](crate::check::check).
 pub fn build(plan: &Plan, scene: &Scene) -> Result<DynObject, PlanError> {
-    let resolved = resolve(plan, scene)?;
-    let mut shared = Vec::new();
-    for (group, tree) in &resolved.subtrees {
-        let built = recipe(tree, *group, scene, &resolved, &shared).object();
-        shared.push(built);
+    Builder::new(plan).build(scene)
+}
+
+/// Builds the objects of a plan for one frame of a scene after the other. Shared subtrees in
+/// which nothing moved since the frame before are kept.
+#[expect(missing_debug_implementations, reason = "objects say what they are by other ways")]
+pub struct Builder<'a> {
+    plan: &'a Plan,
+    /// The frame before, and its shared subtrees.
+    before: Option<(Scene, Vec<DynObject>)>,
+}
+
+impl<'a> Builder<'a> {
+    /// For this plan.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        Self { plan, before: None }
     }
-    Ok(recipe(&resolved.root, scene.root, scene, &resolved, &shared).object())
+
+    /// The objects for a scene; see [`build()`].
+    ///
+    /// # Errors
+    /// If the plan does not pass [`check`](crate::check::check).
+    pub fn build(&mut self, scene: &Scene) -> Result<DynObject, PlanError> {
+        let resolved = resolve(self.plan, scene)?;
+        let rests = match &self.before {
+            Some((before, _)) => rests::rests(before, scene),
+            None => vec![false; scene.groups.len()],
+        };
+        let mut shared = Vec::with_capacity(resolved.subtrees.len());
+        for (i, (group, tree)) in resolved.subtrees.iter().enumerate() {
+            shared.push(match &self.before {
+                Some((_, before)) if rests[*group] => Arc::clone(&before[i]),
+                _ => recipe(tree, *group, scene, &resolved, &shared).object(),
+            });
+        }
+        let root = recipe(&resolved.root, scene.root, scene, &resolved, &shared).object();
+        self.before = Some((scene.clone(), shared));
+        Ok(root)
+    }
 }
 
 /// What is needed to build a part of a plan, and nothing else: a lazy part keeps one.
@@ -201,13 +237,16 @@ fn aggregate(entry: &Entry, params: &Value, parts: Vec<Part>) -> DynObject {
     }
     let object = |part| match part {
         Part::Object(object) => object,
-        Part::Shape(shape) => Arc::new(*shape),
+        Part::Shape(single) => {
+            single.shape.into_object(single.geometry, single.primitive, single.sides)
+        }
         Part::Mesh(mesh) if mesh.triangles().count() <= Nest::TINY => {
             make(list(), &Value::Null, Members::Triangles(mesh))
         }
         Part::Mesh(mesh) => make(entry, params, Members::Triangles(mesh)),
     };
-    let objects = parts.into_iter().map(object).collect();
+    // One thread each; in order, and so always the same.
+    let objects = parts.into_par_iter().map(object).collect();
     make(entry, params, Members::Objects(objects))
 }
 

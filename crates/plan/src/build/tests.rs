@@ -217,3 +217,40 @@ fn scene_of(rng: &mut Rng) -> Scene {
     scene.add(mesh(rng, "large", 60));
     scene
 }
+
+/// Where the first child of a world reaches to; instances share what is in them.
+fn first_bounds(world: &dyn Object) -> [f32; 3] {
+    let mut found = None;
+    world.visit_children(&mut |child| {
+        found.get_or_insert_with(|| child.bounds().max.to_array());
+    });
+    found.expect("there is a child")
+}
+
+#[test]
+fn what_moves_from_frame_to_frame_is_built_anew_and_the_rest_is_kept() {
+    let mut rng = Rng(21);
+    let mut scene = Scene::new();
+    let geometries = vec![scene.add_apart(spheres(&mut rng, "dots", 30))];
+    let inner = scene.add_group(Group { geometries, ..Group::default() });
+    let at = |x: f32| Motion::Still(Affine3A::from_translation(Vec3::new(x, 0.0, 0.0)));
+    let place = |x| Place { name: String::new(), group: inner, motion: at(x) };
+    let outer = scene.add_group(Group { places: vec![place(0.0)], ..Group::default() });
+    scene.place(outer, at(0.0));
+    let plan = single("bvh", Map::new(), &scene).expect("known");
+    let mut builder = super::Builder::new(&plan);
+    let mut last = f32::NEG_INFINITY;
+    for x in [0.0, 1.0, 2.0] {
+        scene.groups[outer].places[0].motion = at(x);
+        let world = builder.build(&scene).expect("sound");
+        let alone = build(&plan, &scene).expect("sound");
+        assert_eq!(first_bounds(&world), first_bounds(&alone));
+        assert!(first_bounds(&world)[0] > last);
+        last = first_bounds(&world)[0];
+    }
+    let (_, before) = builder.before.take().expect("it was built");
+    builder.before = Some((scene.clone(), before.clone()));
+    builder.build(&scene).expect("sound");
+    let (_, after) = builder.before.expect("it was built");
+    assert!(before.iter().zip(&after).all(|(a, b)| Arc::ptr_eq(a, b)), "nothing moved");
+}

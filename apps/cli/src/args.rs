@@ -1,0 +1,303 @@
+//! The command line.
+
+mod values;
+
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::errors::Failure;
+
+pub(crate) use self::values::{Frames, Numbers, Window};
+
+/// Ray tracing by nested acceleration techniques.
+#[derive(Debug, Parser)]
+#[command(name = "nestray", version, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 done, 1 failed, 2 asked for in the wrong way, 3 a file \
+    cannot be read, 130 interrupted.")]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+    #[command(flatten)]
+    pub(crate) talk: Talk,
+}
+
+/// How much is said on the error stream.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Talk {
+    /// Say nothing but errors.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(crate) quiet: bool,
+    /// Say more.
+    #[arg(short, long, global = true)]
+    pub(crate) verbose: bool,
+    /// How progress is shown on the error stream.
+    #[arg(long, global = true, default_value = "auto")]
+    pub(crate) progress: ProgressMode,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressMode {
+    /// A bar on a terminal, lines elsewhere.
+    Auto,
+    /// A line now and then.
+    Plain,
+    /// A line of JSON now and then.
+    Json,
+    /// Not at all.
+    None,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Render the built-in scene and report on it; needs no file.
+    Demo(DemoArgs),
+    /// Render a scene.
+    Render(Box<RenderArgs>),
+    /// Shoot rays from a file.
+    Query(QueryArgs),
+    /// Write a scene made by program.
+    Generate(GenerateArgs),
+    /// Write a scene in another format.
+    Convert(ConvertArgs),
+    /// Say what is in a scene or plan, and what there is to choose from.
+    Inspect(InspectArgs),
+}
+
+/// `nestray demo`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Writes nestray-demo.png and nestray-demo.txt.")]
+pub(crate) struct DemoArgs {}
+
+/// `nestray render`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    nestray render builtin:balls -o balls.png\n  \
+    nestray render scene.gltf -o out.exr -o out.png --resolution 1280x720 --spp 64\n  \
+    nestray render scene.nff -o out.png --integrator whitted --plan grid\n  \
+    nestray render scene.gltf -o film.png --frames 0-47 --fps 24 --shutter 0.5")]
+pub(crate) struct RenderArgs {
+    /// A file, `-` for standard input, or `builtin:NAME`.
+    pub(crate) scene: String,
+    /// Where to: .png, .exr or .pfm; may be given several times.
+    #[arg(short, long = "output", required = true, value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+    /// `auto`, a technique over everything, or a plan file.
+    #[arg(long, default_value = "auto")]
+    pub(crate) plan: String,
+    /// How light is followed.
+    #[arg(long, default_value = "path")]
+    pub(crate) integrator: IntegratorName,
+    /// Pixels across and down; that of the scene, or 640x480.
+    #[arg(long, value_name = "WxH", value_parser = values::resolution)]
+    pub(crate) resolution: Option<[u32; 2]>,
+    /// Samples per pixel.
+    #[arg(long, default_value_t = 16)]
+    pub(crate) spp: u32,
+    /// Most rays in a row.
+    #[arg(long)]
+    pub(crate) max_depth: Option<u32>,
+    /// Only the pixels from x0 to before x1, from y0 to before y1.
+    #[arg(long, value_name = "x0,x1,y0,y1", value_parser = values::window)]
+    pub(crate) crop: Option<Window>,
+    /// Frames A to B, every S-th: files are numbered.
+    #[arg(long, value_name = "A-BxS", value_parser = values::frames)]
+    pub(crate) frames: Option<Frames>,
+    /// Frames per second.
+    #[arg(long, default_value_t = 24.0, value_parser = values::positive)]
+    pub(crate) fps: f32,
+    /// Part of a frame that the shutter is open.
+    #[arg(long, default_value_t = 0.0, value_parser = values::part)]
+    pub(crate) shutter: f32,
+    /// Another number gives another noise.
+    #[arg(long, default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// How many threads; all of the machine if 0.
+    #[arg(long, default_value_t = 0, value_parser = values::threads)]
+    pub(crate) threads: usize,
+    /// Which camera, by number or name.
+    #[arg(long)]
+    pub(crate) camera: Option<String>,
+    /// How light becomes colours of a .png.
+    #[arg(long, default_value = "none")]
+    pub(crate) tonemap: CurveName,
+    /// Stops brighter, for a .png.
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
+    pub(crate) exposure: f32,
+    /// How samples become pixels.
+    #[arg(long, default_value = "gaussian")]
+    pub(crate) filter: FilterName,
+    /// Render by the rules of the standard procedural databases: 512x512 pixels, their
+    /// corners, the full tree of rays to depth 5, bytes in proportion to light.
+    #[arg(long, conflicts_with_all = ["integrator", "spp", "filter"])]
+    pub(crate) spd: bool,
+    /// How far something may be to count for ambient occlusion.
+    #[arg(long, value_name = "DISTANCE")]
+    pub(crate) radius: Option<f32>,
+    /// Write times, ray counts and memory as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// How light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum IntegratorName {
+    /// Mirrors, glass, lights without a surface.
+    Whitted,
+    /// All light.
+    Path,
+    /// How open the surroundings are.
+    Ao,
+    /// How much work each pixel is.
+    Cost,
+}
+
+/// How light becomes colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CurveName {
+    /// Cut off.
+    None,
+    /// By luminance.
+    Reinhard,
+    /// Film-like.
+    Aces,
+    /// Film-like, softer.
+    Filmic,
+}
+
+/// How samples become pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FilterName {
+    /// The mean of the square.
+    Box,
+    /// A pyramid.
+    Tent,
+    /// A bell.
+    Gaussian,
+    /// Sharper.
+    Mitchell,
+}
+
+/// `nestray query`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Rays are an array of shape (n, 6) or (n, 8), f32 or f64: origin, \
+    direction, and if there are 8 the least and largest distance. Distances count in lengths of \
+    the direction.\n\nHits are a structured array, one each: t, u, v (f32), geometry, \
+    primitive, instance (u32). A miss has t = inf and 4294967295 for the rest, and so has a ray \
+    that is none (NaN, infinite, without direction). With --any they are booleans; with --all, \
+    hits of all rays in order, with the number of the ray as first field, u64.")]
+pub(crate) struct QueryArgs {
+    /// A file, `-` for standard input, or `builtin:NAME`.
+    pub(crate) scene: String,
+    /// The rays, .npy.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) rays: PathBuf,
+    /// Where to, .npy.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// `auto`, a technique over everything, or a plan file.
+    #[arg(long, default_value = "auto")]
+    pub(crate) plan: String,
+    /// Only whether anything is hit.
+    #[arg(long, conflicts_with = "all")]
+    pub(crate) any: bool,
+    /// Every hit, not only the nearest.
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// How many threads; all of the machine if 0.
+    #[arg(long, default_value_t = 0, value_parser = values::threads)]
+    pub(crate) threads: usize,
+    /// Write times, ray counts and memory as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// `nestray generate`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "`nestray inspect --list scenes` names them.")]
+pub(crate) struct GenerateArgs {
+    /// Which scene.
+    pub(crate) name: String,
+    /// Its size factor.
+    #[arg(long)]
+    pub(crate) size: Option<u32>,
+    /// Where to: .nff or .json.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+/// `nestray convert`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ConvertArgs {
+    /// A file, `-` for standard input, or `builtin:NAME`.
+    pub(crate) scene: String,
+    /// Where to: .nff or .json.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+/// `nestray inspect`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  \
+    nestray inspect --list techniques\n  \
+    nestray inspect scene.gltf --tree --plan grid\n  \
+    nestray inspect scene.gltf --ray 320,240\n  \
+    nestray inspect plan.json")]
+pub(crate) struct InspectArgs {
+    /// A scene (a file, `-`, or `builtin:NAME`) or a plan file.
+    #[arg(required_unless_present = "list", conflicts_with = "list")]
+    pub(crate) scene: Option<String>,
+    /// Show the nest that the plan makes.
+    #[arg(long)]
+    pub(crate) tree: bool,
+    /// The plan for `--tree` and `--ray`: `auto`, a technique, or a plan file.
+    #[arg(long, default_value = "auto")]
+    pub(crate) plan: String,
+    /// Follow the ray through the middle of a pixel.
+    #[arg(long, value_name = "X,Y", value_parser = values::pixel)]
+    pub(crate) ray: Option<Numbers<2>>,
+    /// Pixels across and down that `--ray` counts in; that of the scene, or 640x480.
+    #[arg(long, value_name = "WxH", value_parser = values::resolution)]
+    pub(crate) resolution: Option<[u32; 2]>,
+    /// Name what there is to choose from.
+    #[arg(long)]
+    pub(crate) list: Option<ListName>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What there is to choose from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ListName {
+    /// Of ordering objects.
+    Techniques,
+    /// Made by program.
+    Scenes,
+    /// That scenes are made of.
+    Shapes,
+}
+
+/// Reads the command line; help and version are said right away.
+pub(crate) fn parse() -> Result<Args, Failure> {
+    Args::try_parse().map_err(|error| match error.kind() {
+        ErrorKind::DisplayHelp
+        | ErrorKind::DisplayVersion
+        | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => error.exit(),
+        _ => {
+            let text = error.to_string();
+            // What is wrong comes first, then an empty line, then advice.
+            let mut parts = text.splitn(2, "\n\n");
+            let what = parts.next().unwrap_or_default().trim_start_matches("error: ");
+            let words: Vec<&str> = what.split_whitespace().collect();
+            let tip = parts
+                .next()
+                .and_then(|rest| rest.lines().find_map(|line| line.trim().strip_prefix("tip: ")));
+            let tip = tip.unwrap_or("--help says more");
+            Failure::usage(words.join(" ")).hint(tip)
+        }
+    })
+}
