@@ -83,12 +83,16 @@ impl Source {
         Spot { line, ..self.spot() }
     }
 
-    /// Where a file that this one names should be; backslashes separate folders, too.
+    /// Where a file that this one names is, or should be: as named, with backslashes between
+    /// folders, or else, whatever folder is named, next to this one.
     #[must_use]
     pub fn companion(&self, name: &str) -> PathBuf {
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        let exact = folder.join(name);
-        if exact.exists() { exact } else { folder.join(name.replace('\\', "/")) }
+        let slashed = name.replace('\\', "/");
+        let alone = slashed.rsplit('/').next().unwrap_or_default();
+        let places = [name, &slashed, alone].map(|name| folder.join(name));
+        let found = places.iter().find(|place| place.is_file());
+        found.unwrap_or(&places[1]).clone()
     }
 
     /// The bytes of another file, unpacked; only of a true file, no device or pipe.

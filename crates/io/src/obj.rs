@@ -102,12 +102,12 @@ impl Reader<'_> {
             }
             b"f" | b"fo" => self.face(word),
             b"o" => {
-                self.object = self.words.rest().into_owned();
+                self.object = short(&self.words.rest());
                 self.current = None;
                 Ok(())
             }
             b"g" => {
-                self.group = self.words.rest().into_owned();
+                self.group = short(&self.words.rest());
                 self.current = None;
                 Ok(())
             }
@@ -178,10 +178,11 @@ impl Reader<'_> {
         }
         let part = &mut self.parts[current];
         if part.corners.len() - start < 3 {
-            let message = format!("a face of {} corners", part.corners.len() - start);
-            return Err(self.words.spot(word).error(message));
+            part.corners.truncate(start);
+            self.left_out.entry("f of fewer than 3".into()).or_insert((0, word.line)).0 += 1;
+        } else {
+            part.ends.push(part.corners.len());
         }
-        part.ends.push(part.corners.len());
         Ok(())
     }
 
@@ -243,7 +244,7 @@ impl Reader<'_> {
             self.pools.colors.resize(places, [1.0; 4]);
         }
         let mut cutter = Cutter::default();
-        for part in self.parts {
+        for part in self.parts.into_iter().filter(|part| !part.ends.is_empty()) {
             let (name, material) = (part.name.clone(), part.material);
             let triangles = part
                 .build(&self.pools, &mut cutter)
@@ -274,6 +275,11 @@ impl Reader<'_> {
     fn next_number(&mut self) -> Option<f32> {
         self.words.on_line()?.number()
     }
+}
+
+/// A name of no more than a line: it is kept for every part.
+fn short(name: &str) -> String {
+    name.chars().take(200).collect()
 }
 
 /// What a geometry is called.

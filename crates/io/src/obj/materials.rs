@@ -1,6 +1,6 @@
 //! The materials that an OBJ file uses, made when first used.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use nestray_scene::material::{AlphaMode, Material};
@@ -22,6 +22,8 @@ pub(super) struct Materials<'a> {
     /// By name, what it is in the scene.
     made: HashMap<String, usize>,
     chosen: Option<usize>,
+    /// Libraries named so far.
+    opened: HashSet<String>,
     materials: Vec<Material>,
     textures: Vec<Texture>,
     /// Pictures by path, none if they cannot be read.
@@ -36,6 +38,7 @@ impl<'a> Materials<'a> {
             definitions: HashMap::new(),
             made: HashMap::new(),
             chosen: None,
+            opened: HashSet::new(),
             materials: Vec::new(),
             textures: Vec::new(),
             images: HashMap::new(),
@@ -52,6 +55,9 @@ impl<'a> Materials<'a> {
         let parts = names.split_whitespace();
         let names: Vec<&str> = if whole { vec![names] } else { parts.collect() };
         for name in names {
+            if !self.opened.insert(name.to_owned()) {
+                continue;
+            }
             let path = self.source.companion(name);
             let bytes = match self.source.companion_bytes(&path) {
                 Ok(bytes) => bytes,

@@ -92,7 +92,6 @@ fn errors_name_line_and_column() {
         with("f 1 2 4294967295"),
         "a.obj:5:7: a face names vertex 4294967295, but there are 4"
     );
-    assert_eq!(with("f 1 2"), "a.obj:5:1: a face of 2 corners");
     assert_eq!(with("f 1 2 3/x"), "a.obj:5:7: expected a corner of a face, found `3/x`");
     assert_eq!(with("f 1 2 3/1/1/1"), "a.obj:5:7: expected a corner of a face, found `3/1/1/1`");
     assert_eq!(with("v 1 2"), "a.obj:5:6: the line ends where a coordinate should be");
@@ -105,14 +104,16 @@ fn errors_name_line_and_column() {
 
 #[test]
 fn oddities_are_told_and_passed_over() {
-    let text = format!("{SQUARE}vt 0 0\nl 1 2\nl 2 3\ncurv2 1\nf 1/1 2/7 3\nv nan 0 0\nf 1 2 5");
+    let text =
+        format!("{SQUARE}vt 0 0\nl 1 2\nl 2 3\ncurv2 1\nf 1 2\nf 1/1 2/7 3\nv nan 0 0\nf 1 2 5");
     let loaded = load(&text);
     let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         warnings,
         [
-            "a.obj:9:7: a face names texture coordinate 7, but there are 1; left out",
+            "a.obj:10:7: a face names texture coordinate 7, but there are 1; left out",
             "a.obj:8: `curv2` is not read; left out 1 times",
+            "a.obj:9: `f of fewer than 3` is not read; left out 1 times",
             "a.obj:6: `l` is not read; left out 2 times",
             "a.obj: 1 triangles have corners out of range and are not seen"
         ]
@@ -171,4 +172,16 @@ fn a_missing_library_is_no_reason_to_stop() {
     let loaded = load(&format!("mtllib x.mtl\n{SQUARE}usemtl a\nf 1 2 3"));
     assert!(loaded.warnings[0].to_string().starts_with("a.obj:1: materials of `x.mtl`: "));
     assert_eq!(loaded.scene.primitives(), 1);
+}
+
+#[test]
+fn pictures_of_another_machine_are_looked_for_next_to_the_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_picture(&folder.path().join("far.png"), &[[9; 3]]);
+    let mtl = "newmtl a\nmap_Kd C:\\models\\far.png\n";
+    std::fs::write(folder.path().join("a.mtl"), mtl).expect("it can be written");
+    let text = format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1 2 3");
+    let source = Source::new(folder.path().join("a.obj"));
+    let loaded = read(text.as_bytes(), &source).expect("it is sound");
+    assert_eq!((loaded.scene.textures.len(), loaded.warnings.len()), (1, 0));
 }
