@@ -7,6 +7,7 @@ mod albedo;
 mod fresnel;
 mod ggx;
 mod glass;
+mod glass_albedo;
 mod layered;
 
 use glam::Vec3A;

@@ -11,14 +11,15 @@ use crate::directions::{mirrored, refracted};
 use super::Scatter;
 use super::fresnel::dielectric;
 use super::ggx::{Ggx, SMOOTHEST};
+use super::glass_albedo::kept;
 
 /// A clear boundary.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Glass {
     /// How much slower light is behind it.
     eta: f32,
-    /// None if it is smooth, or nothing at all.
-    rough: Option<Ggx>,
+    /// And its roughness; none if it is smooth, or nothing at all.
+    rough: Option<(Ggx, f32)>,
     /// What light that passes is multiplied by.
     tint: Vec3A,
 }
@@ -26,7 +27,7 @@ pub(crate) struct Glass {
 impl Glass {
     pub(crate) fn new(eta: f32, roughness: f32, tint: Vec3A) -> Self {
         let smooth = roughness < SMOOTHEST || eta == 1.0;
-        let rough = (!smooth).then(|| Ggx::new(roughness * roughness));
+        let rough = (!smooth).then(|| (Ggx::new(roughness * roughness), roughness));
         Self { eta, rough, tint }
     }
 
@@ -35,7 +36,7 @@ impl Glass {
     }
 
     pub(crate) fn evaluate(&self, to_eye: Vec3A, to_light: Vec3A) -> (Vec3A, f32) {
-        let Some(ggx) = self.rough else { return (Vec3A::ZERO, 0.0) };
+        let Some((ggx, roughness)) = self.rough else { return (Vec3A::ZERO, 0.0) };
         let (v, l) = (to_eye, to_light);
         if v.z <= 0.0 || l.z == 0.0 {
             return (Vec3A::ZERO, 0.0);
@@ -51,7 +52,7 @@ impl Glass {
         }
         let mirror = dielectric(along_v, self.eta);
         let seen = ggx.density_seen(v, h);
-        let both = ggx.seen_by_both(v, l) / ggx.seen(v);
+        let both = ggx.seen_by_both(v, l) / ggx.seen(v) / kept(v.z, roughness, self.eta);
         let (density, tint) = if through {
             let spread = along_l + along_v / self.eta;
             (seen * along_l.abs() / (spread * spread) * (1.0 - mirror), self.tint)
@@ -62,7 +63,7 @@ impl Glass {
     }
 
     pub(crate) fn sample(&self, to_eye: Vec3A, [which, u, w]: [f32; 3]) -> Option<Scatter> {
-        let h = self.rough.map_or(Vec3A::Z, |ggx| ggx.sample(to_eye, [u, w]));
+        let h = self.rough.map_or(Vec3A::Z, |(ggx, _)| ggx.sample(to_eye, [u, w]));
         let mirror = dielectric(to_eye.dot(h), self.eta);
         let (dir, weight, kind) = if which < mirror {
             (mirrored(to_eye, h), Vec3A::ONE, RayKind::Reflect)

@@ -75,7 +75,7 @@ impl Layered {
             rough: (!smooth).then(|| (Ggx::new(look.roughness * look.roughness), look.roughness)),
             left: 1.0,
         };
-        layered.left = (1.0 - layered.coat.albedo(layered.from_all_sides())).max(0.0);
+        layered.left = (1.0 - layered.coat.albedo(layered.all_around())).max(0.0);
         layered
     }
 
@@ -87,7 +87,7 @@ impl Layered {
         if v.z <= 0.0 || l.z <= 0.0 {
             return (Vec3A::ZERO, 0.0);
         }
-        let albedo = self.from(v.z);
+        let albedo = self.seen_from(v.z);
         let chance = self.chance_of_mirror(albedo);
         let mut value = self.ground * (self.through(albedo, l.z) * l.z * FRAC_1_PI);
         let mut density = (1.0 - chance) * cosine_density(l.z);
@@ -110,7 +110,7 @@ impl Layered {
         if v.z <= 0.0 {
             return None;
         }
-        let chance = self.chance_of_mirror(self.from(v.z));
+        let chance = self.chance_of_mirror(self.seen_from(v.z));
         let dir = if which >= chance {
             cosine_weighted([u, w])
         } else if let Some((ggx, _)) = self.rough {
@@ -148,7 +148,7 @@ impl Layered {
     }
 
     /// What mirrors of this roughness give back of light from one side.
-    fn from(&self, cosine: f32) -> Albedo {
+    fn seen_from(&self, cosine: f32) -> Albedo {
         match self.rough {
             Some((_, roughness)) => ROUGH.at(cosine, roughness),
             None => Albedo::smooth(cosine),
@@ -156,7 +156,7 @@ impl Layered {
     }
 
     /// The same of light from all sides.
-    fn from_all_sides(&self) -> Albedo {
+    fn all_around(&self) -> Albedo {
         match self.rough {
             Some((_, roughness)) => ROUGH.average(roughness),
             None => Albedo::SMOOTH_AVERAGE,
@@ -168,6 +168,6 @@ impl Layered {
         if self.left < 1e-4 {
             return 0.0;
         }
-        (1.0 - self.coat.albedo(v)) * (1.0 - self.coat.albedo(self.from(l))) / self.left
+        (1.0 - self.coat.albedo(v)) * (1.0 - self.coat.albedo(self.seen_from(l))) / self.left
     }
 }

@@ -50,8 +50,8 @@ fn mean(samples: u32, mut value: impl FnMut([f32; 4]) -> f64) -> f64 {
 #[test]
 fn white_surfaces_give_back_all_light() {
     for (name, bsdf) in surfaces() {
-        // Rough glass loses what bounces between its small mirrors.
-        let slack = if name.starts_with("frosted") { 0.2 } else { 0.005 };
+        // What rough glass loses comes back by a coarser table.
+        let slack = if name.starts_with("frosted") { 0.03 } else { 0.005 };
         for v in views() {
             let albedo = mean(1 << 14, |[a, b, c, _]| {
                 bsdf.sample(v, [a, b, c]).map_or(0.0, |s| f64::from(s.weight.x))
