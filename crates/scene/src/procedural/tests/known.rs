@@ -1,6 +1,6 @@
 //! Numbers that are known of the standard scenes.
 
-use glam::Vec3A;
+use glam::{DVec3, Vec3A};
 use nestray_core::ray::{Ray, RayKind};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Shape, Sides};
@@ -193,16 +193,21 @@ fn normals_of_the_teapot_agree_with_the_fronts_of_its_triangles() {
 
 #[test]
 fn a_ray_at_the_exact_teapot_meets_it_where_the_patch_is() {
+    let eye = DVec3::new(4.86, 7.2, 5.4);
     for (number, (net, patch)) in nets().iter().zip(newell_teapot()).enumerate() {
         for i in 0..400 {
             let (s, t) = (f64::from(i % 20) / 20.0 + 0.02, f64::from(i / 20) / 20.0 + 0.03);
             let (place, normal) = surface(net, s, t);
-            let ray = Ray::new((place + normal).as_vec3a(), -normal.as_vec3a(), RayKind::Camera);
-            let mut nearest = f32::INFINITY;
-            patch.crossings(&ray, |crossing| {
-                nearest = nearest.min((crossing.t - 1.0).abs());
-            });
-            assert!(nearest < 1e-3, "patch {number} at {s} {t}: {nearest} away");
+            for from in [place + normal, eye] {
+                let ray = Ray::new(from.as_vec3a(), (place - from).as_vec3a(), RayKind::Camera);
+                let mut nearest = f32::INFINITY;
+                patch.crossings(&ray, |crossing| {
+                    nearest = nearest.min((crossing.t - 1.0).abs());
+                });
+                // Where the ray grazes the patch, it may be found a little beside it.
+                let grazing = normal.dot((place - from).normalize()).abs() < 0.05;
+                assert!(nearest < 1e-3 || grazing, "{number} at {s} {t}: {nearest} away");
+            }
         }
     }
 }
