@@ -19,6 +19,10 @@ pub mod stl;
 
 pub mod off;
 
+pub mod gltf;
+
+pub mod native;
+
 pub mod atomic;
 
 pub mod write;
@@ -30,6 +34,10 @@ pub mod exr;
 pub mod pfm;
 
 pub mod image;
+
+mod json;
+
+mod uri;
 
 mod words;
 

@@ -9,7 +9,7 @@ use nestray_scene::scene::Scene;
 
 use crate::complete;
 use crate::error::{LoadError, Spot, Warning};
-use crate::{nff, obj, off, ply, stl};
+use crate::{gltf, native, nff, obj, off, ply, stl};
 
 /// What readers may do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +55,8 @@ const FORMATS: &[Format] = &[
     Format { extensions: &["ply"], begins: ply::begins, read: ply::read },
     Format { extensions: &["stl"], begins: stl::begins, read: stl::read },
     Format { extensions: &["off"], begins: off::begins, read: off::read },
+    Format { extensions: &["gltf", "glb"], begins: gltf::begins, read: gltf::read },
+    Format { extensions: &["json"], begins: native::begins, read: native::read },
 ];
 
 impl Default for LoadOptions {
