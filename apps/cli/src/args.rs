@@ -1,14 +1,16 @@
 //! The command line.
 
+mod names;
 mod values;
 
 use std::path::PathBuf;
 
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 
 use crate::errors::Failure;
 
+pub(crate) use self::names::{CurveName, FilterName, IntegratorName, ListName, ProgressMode};
 pub(crate) use self::values::{Frames, Numbers, Window};
 
 /// Ray tracing by nested acceleration techniques.
@@ -35,19 +37,6 @@ pub(crate) struct Talk {
     /// How progress is shown on the error stream.
     #[arg(long, global = true, default_value = "auto")]
     pub(crate) progress: ProgressMode,
-}
-
-/// How progress is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ProgressMode {
-    /// A bar on a terminal, lines elsewhere.
-    Auto,
-    /// A line now and then.
-    Plain,
-    /// A line of JSON now and then.
-    Json,
-    /// Not at all.
-    None,
 }
 
 /// What to do.
@@ -142,45 +131,6 @@ pub(crate) struct RenderArgs {
     pub(crate) stats: Option<PathBuf>,
 }
 
-/// How light is followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum IntegratorName {
-    /// Mirrors, glass, lights without a surface.
-    Whitted,
-    /// All light.
-    Path,
-    /// How open the surroundings are.
-    Ao,
-    /// How much work each pixel is.
-    Cost,
-}
-
-/// How light becomes colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum CurveName {
-    /// Cut off.
-    None,
-    /// By luminance.
-    Reinhard,
-    /// Film-like.
-    Aces,
-    /// Film-like, softer.
-    Filmic,
-}
-
-/// How samples become pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FilterName {
-    /// The mean of the square.
-    Box,
-    /// A pyramid.
-    Tent,
-    /// A bell.
-    Gaussian,
-    /// Sharper.
-    Mitchell,
-}
-
 /// `nestray query`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Rays are an array of shape (n, 6) or (n, 8), f32 or f64: origin, \
@@ -268,17 +218,6 @@ pub(crate) struct InspectArgs {
     /// As JSON.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// What there is to choose from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ListName {
-    /// Of ordering objects.
-    Techniques,
-    /// Made by program.
-    Scenes,
-    /// That scenes are made of.
-    Shapes,
 }
 
 /// Reads the command line; help and version are said right away.

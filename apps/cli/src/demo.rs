@@ -13,9 +13,11 @@ use nestray::plan::describe::{bytes, describe};
 use nestray::plan::single::AUTO;
 use nestray::prelude::{DynObject, Scene};
 use nestray::render::options::{Integrator, Options};
+use nestray::render::ray_counts::RayCounts;
 use nestray::render::render::{Rendered, render};
 use nestray::render::tone_map::{Curve, ToneMap};
-use nestray::render::watch::{Unwatched, Watch};
+use nestray::render::watch::Watch;
+use nestray::scene::picture::Picture;
 
 use crate::args::{DemoArgs, Talk};
 use crate::errors::Failure;
@@ -30,14 +32,17 @@ const REPORT: &str = "nestray-demo.txt";
 /// Pixels across and down.
 const RESOLUTION: [u32; 2] = [800, 450];
 
-/// Samples per pixel: the most of these that there is time for.
-const SAMPLES: [u32; 7] = [64, 32, 16, 8, 4, 2, 1];
+/// Most samples per pixel.
+const SAMPLES: u32 = 64;
 
-/// How long the picture may take.
-const PICTURE_TIME: Duration = Duration::from_secs(25);
+/// Samples per pixel between two looks at the clock.
+const PASS: u32 = 4;
+
+/// When the picture is good enough, counted from the start of the program.
+const ENOUGH: Duration = Duration::from_secs(40);
 
 /// When everything is brought to an end, whatever the machine.
-const ALL_TIME: Duration = Duration::from_secs(50);
+const END: Duration = Duration::from_secs(50);
 
 pub(crate) fn run(_args: &DemoArgs, talk: &Talk) -> Result<(), Failure> {
     let (progress, mut stats, begun) = (Progress::new(talk), Stats::new(), Instant::now());
@@ -50,51 +55,94 @@ pub(crate) fn run(_args: &DemoArgs, talk: &Talk) -> Result<(), Failure> {
     stop::check()?;
     let race = stats.stage("compare", || race::run(&scene, &world, progress))?;
     stop::check()?;
-    let options = settings(&scene, &world)?;
-    let watch = Deadline { watching: progress.watch("demo"), end: begun + ALL_TIME };
-    let rendered = stats.stage("render", || render(&scene, &world, &options, &watch))?;
-    drop(watch);
-    let shown = ToneMap { curve: Curve::Aces, ..ToneMap::default() }.bytes(&rendered.picture);
-    stats.stage("write", || write_picture(Path::new(PICTURE), &rendered.picture, Some(&shown)))?;
+    let clock = Clock { watching: progress.watch("demo"), begun };
+    let painted = stats.stage("render", || paint(&scene, &world, &clock))?;
+    drop(clock);
+    let shown = ToneMap { curve: Curve::Aces, ..ToneMap::default() }.bytes(&painted.picture);
+    stats.stage("write", || write_picture(Path::new(PICTURE), &painted.picture, Some(&shown)))?;
     let mut text = about(&scene, &plan.hash(), &world);
     text.push_str(&race);
-    text.push_str(&picture(&rendered, &options, &stats));
+    text.push_str(&about_picture(&painted, &stats));
     output::write(Path::new(REPORT), text.as_bytes())?;
     output::say(&text)?;
     progress.note(&format!("{PICTURE} and {REPORT} written"));
     if stop::asked() { Err(stop::interrupted("the picture may not be finished")) } else { Ok(()) }
 }
 
-/// How to render it: as many samples as there is time for, by a small trial.
-fn settings(scene: &Scene, world: &DynObject) -> Result<Options, Failure> {
-    let trial = Options {
-        resolution: RESOLUTION.map(|side| side / 5),
-        samples: 1,
+/// A picture that got better until time was up.
+struct Painted {
+    picture: Picture,
+    rays: RayCounts,
+    samples: u32,
+    /// Whether at least one sample of every pixel was taken.
+    complete: bool,
+}
+
+/// Renders a few samples at a time; the picture is the mean of all.
+fn paint(scene: &Scene, world: &DynObject, clock: &Clock) -> Result<Painted, Failure> {
+    let options = Options {
+        resolution: RESOLUTION,
         integrator: Integrator::Path,
         layers: false,
         ..Options::default()
     };
-    let begun = Instant::now();
-    render(scene, world, &trial, &Unwatched)?;
-    let one = begun.elapsed() * 25;
-    let fits = |samples: &&u32| one * **samples <= PICTURE_TIME;
-    let samples = SAMPLES.iter().find(fits).copied().unwrap_or(1);
-    Ok(Options { resolution: RESOLUTION, samples, ..trial })
+    let mut painted: Option<Painted> = None;
+    let mut pass = 1;
+    loop {
+        let (first_sample, begun) = (painted.as_ref().map_or(0, |p| p.samples), Instant::now());
+        let options = Options { first_sample, samples: pass, ..options.clone() };
+        let rendered = render(scene, world, &options, clock)?;
+        let one = begun.elapsed() / pass;
+        let (done, stopped) = match painted {
+            None => (Painted::first(rendered, pass), false),
+            Some(done) if rendered.complete => (done.with(&rendered, pass), false),
+            // A part of a pass is of no use.
+            Some(done) => (done, true),
+        };
+        let left = ENOUGH.saturating_sub(clock.begun.elapsed()).as_secs_f64();
+        let fit = (left / one.as_secs_f64().max(1e-6)) as u32;
+        pass = PASS.min(SAMPLES.saturating_sub(done.samples)).min(fit);
+        if stopped || pass == 0 || stop::asked() {
+            return Ok(done);
+        }
+        painted = Some(done);
+    }
 }
 
-/// Ends the picture in time.
-struct Deadline {
+impl Painted {
+    fn first(rendered: Rendered, samples: u32) -> Self {
+        let Rendered { picture, rays, complete, .. } = rendered;
+        Self { picture, rays, samples, complete }
+    }
+
+    fn with(mut self, rendered: &Rendered, samples: u32) -> Self {
+        let (old, new) = (self.samples as f32, samples as f32);
+        for (mine, other) in self.picture.layers.iter_mut().zip(&rendered.picture.layers) {
+            for (a, b) in mine.samples.iter_mut().zip(&other.samples) {
+                *a = (*a * old + *b * new) / (old + new);
+            }
+        }
+        self.rays.add(&rendered.rays);
+        self.samples += samples;
+        self
+    }
+}
+
+/// Shows how much time is left, and ends it.
+struct Clock {
     watching: Watching,
-    end: Instant,
+    begun: Instant,
 }
 
-impl Watch for Deadline {
-    fn advanced(&self, done: u64, total: u64, rays: u64) {
+impl Watch for Clock {
+    fn advanced(&self, _done: u64, _total: u64, rays: u64) {
+        let total = ENOUGH.as_millis() as u64;
+        let done = (self.begun.elapsed().as_millis() as u64).min(total);
         self.watching.advanced(done, total, rays);
     }
 
     fn stop(&self) -> bool {
-        self.watching.stop() || Instant::now() > self.end
+        self.watching.stop() || self.begun.elapsed() > END
     }
 }
 
@@ -113,22 +161,22 @@ fn about(scene: &Scene, hash: &str, world: &DynObject) -> String {
 }
 
 /// The picture and what it took.
-fn picture(rendered: &Rendered, options: &Options, stats: &Stats) -> String {
-    let [width, height] = options.resolution;
+fn about_picture(painted: &Painted, stats: &Stats) -> String {
+    let [width, height] = RESOLUTION;
     let seconds = stats.seconds("render");
     let mut text = String::new();
-    let samples = options.samples;
+    let samples = painted.samples;
     let _ = writeln!(text, "\nThe picture: {width} x {height} pixels, {samples} samples each");
-    if !rendered.complete {
+    if !painted.complete {
         let _ = writeln!(text, "  not finished: time was up");
     }
-    for (kind, count) in rendered.rays.each() {
+    for (kind, count) in painted.rays.each() {
         if count.cast > 0 {
             let percent = 100.0 * count.hit as f64 / count.cast as f64;
             let _ = writeln!(text, "  {kind:<8} {:>12} rays, {percent:.0} % hit", count.cast);
         }
     }
-    let rays = rendered.rays.total().cast;
+    let rays = painted.rays.total().cast;
     let _ = writeln!(text, "  together {rays:>12} rays in {seconds:.2} s, {}", rate(rays, seconds));
     let _ = writeln!(text, "\nTimes");
     for stage in ["make", "build", "compare", "render", "write"] {

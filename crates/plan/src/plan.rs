@@ -44,7 +44,7 @@ pub enum Node {
     /// One structure for rays of some kinds, another for the rest.
     ByKind(Box<ByKind>),
     /// Built when the first ray reaches it.
-    Lazy(Box<Node>),
+    Lazy(Box<Self>),
 }
 
 /// A technique over children.

@@ -1,4 +1,4 @@
-//! Arrays as NumPy stores them.
+//! Arrays as `NumPy` stores them.
 
 /// Rays as numbers, six or eight each.
 #[derive(Debug)]
@@ -72,7 +72,7 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     Ok((std::str::from_utf8(text).map_err(|_| "its header is no text")?, data))
 }
 
-/// A header as NumPy writes it: a Python dictionary of three entries.
+/// A header as `NumPy` writes it: a Python dictionary of three entries.
 fn header(text: &str) -> Option<Header> {
     let mut rest = text.trim().strip_prefix('{')?.strip_suffix('}')?.trim();
     let (mut kind, mut by_columns, mut shape) = (None, None, None);

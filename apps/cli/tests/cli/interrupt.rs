@@ -1,12 +1,9 @@
 //! Interrupting the program.
-#![cfg(unix)]
-
-mod program;
 
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use program::Folder;
+use crate::program::Folder;
 
 fn start(args: &[&str]) -> Child {
     Command::new(assert_cmd::cargo::cargo_bin("nestray"))

@@ -1,35 +1,35 @@
 //! Running the program, and the files it is given.
-#![allow(dead_code, reason = "each test program uses a part of it")]
 
 use std::process::Output;
 
 use assert_cmd::Command;
 
 /// A folder that goes away.
-pub struct Folder(tempfile::TempDir);
+#[derive(Debug)]
+pub(crate) struct Folder(tempfile::TempDir);
 
 impl Folder {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().expect("a folder"))
     }
 
     /// The path of a file in it.
-    pub fn path(&self, name: &str) -> String {
+    pub(crate) fn path(&self, name: &str) -> String {
         self.0.path().join(name).to_string_lossy().into_owned()
     }
 
-    pub fn write(&self, name: &str, text: &str) -> String {
+    pub(crate) fn write(&self, name: &str, text: &str) -> String {
         self.write_bytes(name, text.as_bytes())
     }
 
-    pub fn write_bytes(&self, name: &str, bytes: &[u8]) -> String {
+    pub(crate) fn write_bytes(&self, name: &str, bytes: &[u8]) -> String {
         let path = self.path(name);
         std::fs::write(&path, bytes).expect("writable");
         path
     }
 
     /// The names of all files in it, in order.
-    pub fn names(&self) -> Vec<String> {
+    pub(crate) fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.0.path()).expect("readable");
         let mut names: Vec<String> = entries
             .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
@@ -40,14 +40,15 @@ impl Folder {
 }
 
 /// What the program did.
-pub struct Ran {
-    pub code: Option<i32>,
-    pub output: String,
-    pub errors: String,
+#[derive(Debug)]
+pub(crate) struct Ran {
+    pub(crate) code: Option<i32>,
+    pub(crate) output: String,
+    pub(crate) errors: String,
 }
 
 /// Runs the program.
-pub fn nestray(args: &[&str]) -> Ran {
+pub(crate) fn nestray(args: &[&str]) -> Ran {
     let mut command = Command::cargo_bin("nestray").expect("it was built");
     let Output { status, stdout, stderr } =
         command.args(args).timeout(std::time::Duration::from_secs(120)).output().expect("it runs");
@@ -59,13 +60,13 @@ pub fn nestray(args: &[&str]) -> Ran {
 }
 
 impl Ran {
-    pub fn succeeds(self) -> Self {
+    pub(crate) fn succeeds(self) -> Self {
         assert_eq!(self.code, Some(0), "{}", self.errors);
         self
     }
 
     /// It ends with this code, and one line that holds all these words.
-    pub fn fails(self, code: i32, words: &[&str]) -> Self {
+    pub(crate) fn fails(self, code: i32, words: &[&str]) -> Self {
         assert_eq!(self.code, Some(code), "{}", self.errors);
         assert_eq!(self.errors.trim_end().lines().count(), 1, "{}", self.errors);
         assert!(self.errors.starts_with("nestray: "), "{}", self.errors);
@@ -78,7 +79,7 @@ impl Ran {
 }
 
 /// A file of rays, six numbers each.
-pub fn rays(list: &[[f64; 6]]) -> Vec<u8> {
+pub(crate) fn rays(list: &[[f64; 6]]) -> Vec<u8> {
     let shape = format!("({}, 6)", list.len());
     let text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n");
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();

@@ -1,10 +1,8 @@
 //! What each verb does when all is well.
 
-mod program;
-
 use std::fs;
 
-use program::{Folder, nestray, rays};
+use crate::program::{Folder, nestray, rays};
 
 #[test]
 fn a_render_is_the_same_with_any_plan_and_any_threads() {

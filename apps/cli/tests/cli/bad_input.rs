@@ -1,11 +1,9 @@
 //! What happens to bad input: the right exit code, one line that says what is wrong and where,
 //! and no file touched.
 
-mod program;
-
 use std::fs;
 
-use program::{Folder, Ran, nestray, rays};
+use crate::program::{Folder, Ran, nestray, rays};
 
 /// A small picture of a scene, over an old file that must stay if it fails.
 struct Try {
