@@ -1,4 +1,4 @@
-//! OpenEXR files: all layers of a picture, in floating point.
+//! EXR files: all layers of a picture, in floating point.
 
 use std::io::{self, Cursor, Seek, Write};
 
@@ -90,12 +90,15 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     Ok(picture)
 }
 
+/// A channel and its samples.
+type Samples = (String, Vec<f32>);
+
 type Channels = exr::prelude::SmallVec<[AnyChannel<FlatSamples>; 4]>;
 
 /// Sorts the channels of a part into layers, colours first.
 fn add_part(picture: &mut Picture, part: String, channels: Channels) -> Result<(), String> {
     let pixels = picture.width * picture.height;
-    let mut layers: Vec<(String, Vec<(String, Vec<f32>)>)> = Vec::new();
+    let mut layers: Vec<(String, Vec<Samples>)> = Vec::new();
     for channel in channels {
         let full = channel.name.to_string();
         let (layer, name) = match full.rsplit_once('.') {

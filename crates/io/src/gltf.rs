@@ -87,9 +87,12 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
     Ok((text, chunk(rest, b"BIN\0")?.map(|(inside, _)| inside)))
 }
 
+/// Bytes in two.
+type Parts<'a> = (&'a [u8], &'a [u8]);
+
 /// The content of the next chunk, and what follows; none if it is of another kind or the file
 /// ends.
-fn chunk<'a>(bytes: &'a [u8], kind: &[u8]) -> Result<Option<(&'a [u8], &'a [u8])>, String> {
+fn chunk<'a>(bytes: &'a [u8], kind: &[u8]) -> Result<Option<Parts<'a>>, String> {
     if bytes.len() < 8 {
         return Ok(None);
     }

@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn broken_pictures_are_errors_in_one_line() {
         const SEED: u64 = 11;
-        println!("seed {SEED}");
+        eprintln!("seed {SEED}");
         let mut state = SEED;
         let mut random = move || {
             state = state

@@ -68,7 +68,7 @@ impl<T: Copy> Track<T> {
             Way::Linear => SceneWay::Linear,
             Way::Cubic => SceneWay::Cubic,
         };
-        if matches!(self.way, Way::Cubic) && self.keys.len() % 3 != 0 {
+        if matches!(self.way, Way::Cubic) && !self.keys.len().is_multiple_of(3) {
             return Err(".keys: cubic ones come by threes".into());
         }
         // Written so that NaN is refused.

@@ -57,7 +57,8 @@ pub(super) enum Projection {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self { forward: None, ..Self::of(&SceneCamera::default()) }
+        let camera = Self::of(&SceneCamera::default());
+        Self { forward: None, ..camera }
     }
 }
 

@@ -105,7 +105,7 @@ fn files_that_end_anywhere_are_refused_or_read() {
 #[test]
 fn mutants_never_panic() {
     const SEED: u64 = 20;
-    println!("seed {SEED}");
+    eprintln!("seed {SEED}");
     let mut state = SEED;
     let mut random = move |below: usize| {
         state =
@@ -135,7 +135,7 @@ fn mutants_never_panic() {
             check(&file);
         }
     }
-    println!("{read} of 20000 mutants are sound");
+    eprintln!("{read} of 20000 mutants are sound");
     assert!(read > 1_000, "mutants should get past the JSON: {read}");
 }
 
@@ -162,8 +162,7 @@ fn sharing_cannot_make_a_small_file_huge() {
         format!(r#"{{"bufferView":{i},"componentType":5126,"count":1000,"type":"VEC3"}}"#)
     };
     let primitive = |i: usize| format!(r#"{{"attributes":{{"POSITION":{i}}}}}"#);
-    let list =
-        |item: &dyn Fn(usize) -> String| (0..400).map(|i| item(i)).collect::<Vec<_>>().join(",");
+    let list = |item: &dyn Fn(usize) -> String| (0..400).map(item).collect::<Vec<_>>().join(",");
     let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"mesh":0}}],
 "meshes":[{{"primitives":[{}]}}],"accessors":[{}],"bufferViews":[{}],"buffers":[{{}}]}}"#,

@@ -93,7 +93,7 @@ fn other_versions_are_told_even_if_they_have_other_fields() {
 #[test]
 fn broken_texts_are_errors() {
     const SEED: u64 = 5;
-    println!("seed {SEED}");
+    eprintln!("seed {SEED}");
     let (_, written) = there_and_back(&everything::everything());
     let bytes = written.as_bytes();
     let mut state = SEED;
