@@ -30,7 +30,7 @@ enum Part {
     Shapes(u32, Vec<Sphere>),
     Mesh(u32, Arc<Triangles>),
     /// Several parts as one child.
-    Group(Vec<Part>),
+    Group(Vec<Self>),
     /// A shared group, at one place or moving through several.
     Placed(Vec<Affine3A>, usize),
 }

@@ -96,9 +96,7 @@ fn what_is_held_twice_or_not_at_all_is_named() {
         "root: instance 0 of the world is not held by anything, nor are 2 others"
     );
     assert_eq!(
-        root(&format!(
-            r#"{{ "pick": "rest" }}, {{ "place": {{ "instance": 1, "shared": "tree" }} }}"#
-        )),
+        root(r#"{ "pick": "rest" }, { "place": { "instance": 1, "shared": "tree" } }"#),
         "root: instance 0 of the world is not held by anything, nor are 1 others"
     );
     assert_eq!(
