@@ -1,4 +1,4 @@
-//! OBJ: meshes as text, with materials in files of their own [Wavefront].
+//! OBJ: meshes as text, with materials in files of their own.
 
 mod image_map;
 

@@ -1,4 +1,4 @@
-//! OFF: meshes as text, vertices and faces with or without colours [Geomview].
+//! OFF: meshes as text, vertices and faces with or without colours.
 
 use nestray_scene::texture::linear_from_srgb;
 use nestray_shapes::triangle_mesh::Triangles;

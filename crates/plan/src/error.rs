@@ -106,7 +106,11 @@ fn hint(nearest: Option<&str>) -> String {
 }
 
 fn others(more: usize) -> String {
-    if more == 0 { String::new() } else { format!(", nor are {more} others") }
+    match more {
+        0 => String::new(),
+        1 => ", nor is another".into(),
+        _ => format!(", nor are {more} others"),
+    }
 }
 
 impl PlanError {

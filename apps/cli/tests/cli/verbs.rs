@@ -58,7 +58,8 @@ fn frames_are_numbered_and_things_move() {
     );
     let out = folder.path("film.pfm");
     let args = ["render", &scene, "-o", &out, "--frames", "0-20x10", "--fps", "20", "--spp", "1"];
-    nestray(&[&args[..], &["--resolution", "32x24", "--integrator", "ao"]].concat()).succeeds();
+    nestray(&[&args[..], &["--resolution", "32x24", "--integrator", "whitted"]].concat())
+        .succeeds();
     let frames = ["0000", "0010", "0020"].map(|number| {
         fs::read(folder.path(&format!("film.{number}.pfm"))).expect("it was written")
     });
@@ -81,7 +82,7 @@ fn rays_are_answered_in_order() {
     let (rays, out) = (folder.write_bytes("rays.npy", &rays(&list)), folder.path("hits.npy"));
     nestray(&["query", &scene, "--rays", &rays, "-o", &out]).succeeds();
     let bytes = fs::read(&out).expect("it was written");
-    let header = String::from_utf8_lossy(&bytes[10..128]).into_owned();
+    let header = String::from_utf8_lossy(&bytes[10..bytes.len() - 6 * 24]).into_owned();
     assert!(header.contains("('instance', '<u4')], 'fortran_order': False, 'shape': (6,)"));
     let data = &bytes[bytes.len() - 6 * 24..];
     let hits: Vec<(f32, u32)> = data
@@ -100,7 +101,7 @@ fn rays_are_answered_in_order() {
 
     nestray(&["query", &scene, "--rays", &rays, "-o", &out, "--all", "--plan", "grid"]).succeeds();
     let bytes = fs::read(&out).expect("it was written");
-    assert!(String::from_utf8_lossy(&bytes[10..140]).contains("'shape': (2,)"));
+    assert!(String::from_utf8_lossy(&bytes).contains("'shape': (2,)"));
     assert_eq!(bytes[bytes.len() - 32..][..8], 5u64.to_le_bytes());
 }
 
@@ -113,7 +114,7 @@ fn scenes_are_made_converted_and_looked_at() {
     assert!(fs::read(&made).expect("made") == fs::read(&again).expect("converted"));
     let said = nestray(&["inspect", &again, "--json"]).succeeds().output;
     let json: serde_json::Value = serde_json::from_str(&said).expect("JSON");
-    assert_eq!(json["primitives"], 16 * 4);
+    assert_eq!(json["primitives"], 16);
     let said = nestray(&["inspect", &again, "--tree", "--plan", "grid", "--ray", "320,200"]);
     let said = said.succeeds().output;
     assert!(said.contains("\ngrid ") && said.contains("  hits      "), "{said}");

@@ -97,7 +97,7 @@ fn what_is_held_twice_or_not_at_all_is_named() {
     );
     assert_eq!(
         root(r#"{ "pick": "rest" }, { "place": { "instance": 1, "shared": "tree" } }"#),
-        "root: instance 0 of the world is not held by anything, nor are 1 others"
+        "root: instance 0 of the world is not held by anything, nor is another"
     );
     assert_eq!(
         root(&format!(r#"{{ "pick": "*" }}, {{ "pick": 2 }}, {TREES}"#)),
