@@ -184,7 +184,7 @@ mod tests {
         let mut numbers = Numbers(12);
         let mut met = 0;
         for case in 0..20_000 {
-            let (beam, bounds) = (beam(&mut numbers, case), numbers.aabb(4.0));
+            let (beam, bounds) = (beam(&mut numbers, case), numbers.aabb(2.0));
             let Some([first, last]) = beam.meets(&bounds) else { continue };
             met += 1;
             // Half way the rays fill a box that must overlap this one.

@@ -61,3 +61,8 @@ pub use nestray_render as render;
 pub use nestray_scene as scene;
 pub use nestray_shapes as shapes;
 pub use nestray_techniques as techniques;
+
+/// The code of the README compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
