@@ -17,19 +17,8 @@ pub(super) fn add(
     world: &DynObject,
     report: &mut Report,
 ) -> Result<(), Failure> {
-    let Some(camera) = scene.cameras.first() else {
-        return Err(Failure::usage("--ray: the scene has no camera"));
-    };
-    let [width, height] = resolution.or(camera.resolution).unwrap_or(RESOLUTION);
-    if x >= width || y >= height {
-        let message = format!("--ray: {x},{y} is no pixel of {width} x {height}");
-        return Err(Failure::usage(message));
-    }
-    let across = (x as f32 + 0.5) / width as f32 * 2.0 - 1.0;
-    let up = 1.0 - (y as f32 + 0.5) / height as f32 * 2.0;
-    let view = camera.view(width as f32 / height as f32);
-    let (origin, dir) = view.ray(across, up, [0.0; 2]);
-    let ray = Ray::new(origin, dir, RayKind::Camera);
+    let ray = through([x, y], resolution, scene)?;
+    let (origin, dir) = (ray.origin(), ray.dir());
     let (mut scratch, mut hit) = (Scratch::counting(), Hit::none(ray.t_max()));
     world.closest_hit(&ray, &mut hit, &mut scratch);
     let work = scratch.counters.total();
@@ -71,4 +60,21 @@ pub(super) fn add(
     }
     report.json["ray"] = found;
     Ok(())
+}
+
+/// The ray of the first camera through the middle of a pixel.
+fn through([x, y]: [u32; 2], resolution: Option<[u32; 2]>, scene: &Scene) -> Result<Ray, Failure> {
+    let Some(camera) = scene.cameras.first() else {
+        return Err(Failure::usage("--ray: the scene has no camera"));
+    };
+    let [width, height] = resolution.or(camera.resolution).unwrap_or(RESOLUTION);
+    if x >= width || y >= height {
+        let message = format!("--ray: {x},{y} is no pixel of {width} x {height}");
+        return Err(Failure::usage(message));
+    }
+    let across = (x as f32 + 0.5) / width as f32 * 2.0 - 1.0;
+    let up = 1.0 - (y as f32 + 0.5) / height as f32 * 2.0;
+    let view = camera.view(width as f32 / height as f32);
+    let (origin, dir) = view.ray(across, up, [0.0; 2]);
+    Ok(Ray::new(origin, dir, RayKind::Camera))
 }
