@@ -149,7 +149,7 @@ impl Watch for Clock {
 /// The scene and its nest.
 fn about(scene: &Scene, hash: &str, world: &DynObject) -> String {
     let stored: u64 = scene.geometries.iter().map(|g| u64::from(g.primitives())).sum();
-    let part = describe(world, &CostModel::default());
+    let part = describe(world, CostModel::usual());
     let mut text = String::new();
     let version = env!("CARGO_PKG_VERSION");
     let _ = writeln!(text, "nestray {version}, vector level {}", stats::level());

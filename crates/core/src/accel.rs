@@ -5,6 +5,8 @@ mod leaf;
 mod members;
 mod single;
 
+use std::sync::OnceLock;
+
 use glam::Vec3A;
 
 use crate::aabb::Aabb;
@@ -41,6 +43,9 @@ pub struct Accel<T: Technique, C: Children> {
     /// Children from here on were added after the last build.
     built: u32,
     bounds: Aabb,
+    /// What it costs by the usual prices: asked by every parent, and asking all below it
+    /// again each time would take forever in a deep hierarchy of instances.
+    usual_cost: OnceLock<Cost>,
 }
 
 impl<T: Technique, C: Children> Accel<T, C> {
@@ -56,6 +61,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
             unbounded: Vec::new(),
             built: 0,
             bounds: Aabb::EMPTY,
+            usual_cost: OnceLock::new(),
         };
         accel.rebuild();
         accel
@@ -77,6 +83,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
     }
 
     fn rebuild(&mut self) {
+        self.usual_cost = OnceLock::new();
         let children = &self.members.children;
         self.built = children.count();
         self.bounds =
@@ -116,6 +123,19 @@ impl<T: Technique, C: Children> Accel<T, C> {
     #[inline(always)]
     fn loose(&self) -> impl Iterator<Item = u32> + '_ {
         self.unbounded.iter().copied().chain(self.built..self.members.children.count())
+    }
+
+    /// What one random ray costs, children outside the index included, and all memory.
+    fn whole_cost(&self, model: &CostModel) -> Cost {
+        let mut cost = match &self.index {
+            Some(index) => self.index_cost(index, model),
+            None => Cost::default(),
+        };
+        for child in self.loose() {
+            let one = self.members.children.cost(child, model);
+            cost = cost.plus(one.nanos(), one.bytes);
+        }
+        cost.plus(model.call, size_of::<Self>() as u64)
     }
 
     /// What one random ray costs in the index, and its memory.
@@ -228,15 +248,10 @@ impl<T: Technique, C: Children> Object for Accel<T, C> {
     }
 
     fn cost(&self, model: &CostModel) -> Cost {
-        let mut cost = match &self.index {
-            Some(index) => self.index_cost(index, model),
-            None => Cost::default(),
-        };
-        for child in self.loose() {
-            let one = self.members.children.cost(child, model);
-            cost = cost.plus(one.nanos(), one.bytes);
+        if std::ptr::eq(model, CostModel::usual()) {
+            return *self.usual_cost.get_or_init(|| self.whole_cost(model));
         }
-        cost.plus(model.call, size_of::<Self>() as u64)
+        self.whole_cost(model)
     }
 
     fn settings(&self) -> String {
@@ -250,6 +265,7 @@ impl<T: Technique, C: Children> Object for Accel<T, C> {
 
 impl<T: Technique> Aggregate for Accel<T, Vec<DynObject>> {
     fn add_child(&mut self, child: DynObject) {
+        self.usual_cost = OnceLock::new();
         let bounds = child.bounds();
         if !bounds.is_empty() {
             self.bounds = self.bounds.join(bounds);

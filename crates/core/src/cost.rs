@@ -1,6 +1,7 @@
 //! Expected cost of a ray, after [Arvo 90, Appendix A].
 
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 use crate::ray::RayKind;
 
@@ -58,6 +59,13 @@ pub struct CostModel {
 }
 
 impl CostModel {
+    /// The default prices, made once: builders ask for the weight of every child.
+    #[must_use]
+    pub fn usual() -> &'static Self {
+        static USUAL: LazyLock<CostModel> = LazyLock::new(CostModel::default);
+        &USUAL
+    }
+
     /// Price of one step of `technique`; one never measured costs what a call does.
     #[must_use]
     pub fn step(&self, technique: &str) -> f64 {

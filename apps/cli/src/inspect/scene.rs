@@ -77,7 +77,7 @@ fn counts(scene: &Scene) -> Report {
 }
 
 fn tree(world: &DynObject, hash: &str, report: &mut Report) {
-    let part = describe(world, &CostModel::default());
+    let part = describe(world, CostModel::usual());
     let _ = writeln!(report.text, "plan        {hash}");
     report.text.push_str(&part.to_text());
     report.json["plan"] = hash.into();

@@ -27,7 +27,7 @@ impl<C: Children> Family for Members<C> {
     }
 
     fn weight(&self, child: u32) -> f32 {
-        let cost = self.children.cost(self.names.child(child), &CostModel::default());
+        let cost = self.children.cost(self.names.child(child), CostModel::usual());
         (cost.nanos() as f32).max(f32::MIN_POSITIVE)
     }
 
