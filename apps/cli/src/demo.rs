@@ -156,6 +156,7 @@ fn about(scene: &Scene, hash: &str, world: &DynObject) -> String {
     let _ =
         writeln!(text, "\nThe scene: {} primitives, {stored} of them stored", scene.primitives());
     let _ = writeln!(text, "\nThe nest (auto is {AUTO} for now), plan {hash}");
+    let _ = writeln!(text, "Times beside it are expected from rough prices, not measured.");
     text.push_str(&part.to_text());
     text
 }
