@@ -11,7 +11,7 @@ use crate::material::Material;
 use crate::texture::Texture;
 
 /// Everything a picture is made of. Parts name each other by index; a reader that hands
-/// out a scene has checked that they are in range ([`Scene::check`]).
+/// out a scene has checked that they are in range.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Geometries, in file order; a hit names one of them.

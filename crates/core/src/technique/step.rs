@@ -4,7 +4,7 @@ use crate::trail;
 
 /// What a ray meets next: a place of the technique's own (31 bits of its choice), a leaf,
 /// or nothing any more. One word, so that trees can keep it in their nodes and in the
-/// [`Trail`] as it is.
+/// [`Trail`](crate::trail::Trail) as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step(u32);
 
