@@ -114,8 +114,8 @@ impl Shape for Block {
             return;
         }
         if let Some([enter, leave]) = self.walls(ray) {
-            found(Crossing { t: enter.t as f32, uv: [0.0; 2], front: true });
-            found(Crossing { t: leave.t as f32, uv: [0.0; 2], front: false });
+            found(Crossing::of_solid(enter.t as f32, true));
+            found(Crossing::of_solid(leave.t as f32, false));
         }
     }
 

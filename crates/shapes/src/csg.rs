@@ -70,19 +70,32 @@ impl<L: Object, R: Object> Csg<L, R> {
     }
 
     /// Calls `found` with every change along the ray, nearest first, as long as it wants more.
-    fn each_change(&self, ray: &Ray, scratch: &mut Scratch, found: impl FnMut(&Change) -> bool) {
-        let clip = Clip::new(ray, self.bounds.reach());
-        let passes = self.bounds.is_bounded() && clip.cut(&self.bounds, ray.t_max()).is_none();
-        if self.bounds.is_empty() || passes {
+    /// Changes lie within the bounds, where every nest looks.
+    fn each_change(
+        &self,
+        ray: &Ray,
+        scratch: &mut Scratch,
+        mut found: impl FnMut(&Change) -> bool,
+    ) {
+        /// Less than techniques allow ([`Clip::SLACK`]), by what two such tests can differ.
+        const SLACK: f32 = Clip::SLACK * 0.6;
+        if self.bounds.is_empty() {
             return;
         }
+        let (mut first, mut last) = (ray.t_min(), ray.t_max());
+        if self.bounds.is_bounded() {
+            let clip = Clip::with_slack(ray, self.bounds.reach(), SLACK);
+            let Some(cut) = clip.cut(&self.bounds, ray.t_max()) else { return };
+            (first, last) = cut;
+        }
+        let within = |change: &Change| change.t <= last && (change.t < first || found(change));
         let whole = ray.whole().leaving(Source::NONE);
         let mut memory = Memory::take();
         let left = memory.left.follow(&self.left, self.told[0], &whole, &mut memory.hits, scratch);
         // Without the left one there is no more than without anything.
         if left || self.operation == Operation::Union {
             memory.right.follow(&self.right, self.told[1], &whole, &mut memory.hits, scratch);
-            Merge::new(self.operation, &memory.left, &memory.right).take_while(found);
+            Merge::new(self.operation, &memory.left, &memory.right).take_while(within);
         }
         memory.give_back();
     }

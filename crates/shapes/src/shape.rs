@@ -1,5 +1,7 @@
 //! Single shapes: what each has to say of itself, and the object made of it.
 
+mod crossing;
+
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::beam::{Beam, Facing};
@@ -9,6 +11,8 @@ use nestray_core::object::Object;
 use nestray_core::ray::{Ray, Source};
 use nestray_core::scratch::Scratch;
 use nestray_core::surface::Surface;
+
+pub use self::crossing::Crossing;
 
 /// A surface that a line crosses in a few places.
 ///
@@ -102,17 +106,6 @@ impl<S: Shape> Shape for &S {
     fn is_flat(&self) -> bool {
         (**self).is_flat()
     }
-}
-
-/// Where a line crosses a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// Ray parameter.
-    pub t: f32,
-    /// Surface coordinates, of the shape's choice.
-    pub uv: [f32; 2],
-    /// Whether the ray arrives at the front: against the normal.
-    pub front: bool,
 }
 
 /// Which sides of a surface can be seen.

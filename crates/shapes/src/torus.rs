@@ -143,7 +143,7 @@ impl Shape for Torus {
     }
 
     fn crossings(&self, ray: &Ray, mut found: impl FnMut(Crossing)) {
-        self.roots(ray, |t, front| found(Crossing { t: t as f32, uv: [0.0; 2], front }));
+        self.roots(ray, |t, front| found(Crossing::of_solid(t as f32, front)));
     }
 
     fn surface(&self, ray: &Ray, crossing: &Crossing) -> Surface {

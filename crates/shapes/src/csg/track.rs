@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use nestray_core::aabb::Aabb;
 use nestray_core::hit::Hit;
 use nestray_core::object::Object;
 use nestray_core::ray::Ray;
@@ -94,11 +95,18 @@ impl Track {
             Some(Event { t: hit.t, enters })
         }));
         self.events.sort_by(|a, b| a.t.total_cmp(&b.t).then(b.enters.cmp(&a.enters)));
-        let bounded = operand.bounds().is_bounded();
+        let bounds = operand.bounds();
+        let bounded = bounds.is_bounded();
         self.settle(ray);
         if bounded && self.events.last().is_some_and(|last| last.enters) {
             // Nothing bounded goes on forever: the ray only grazed it.
             self.events.pop();
+        }
+        let start = Aabb { min: ray.origin(), max: ray.origin() };
+        let outside = bounded && !bounds.padded().contains(&start);
+        if outside && self.events.first().is_some_and(|first| !first.enters) {
+            // Nor can it be left by who was not in it.
+            self.events.remove(0);
         }
         self.inside = match self.events.first() {
             Some(first) => !first.enters,

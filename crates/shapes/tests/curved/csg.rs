@@ -274,3 +274,19 @@ fn a_plane_is_the_half_of_space_behind_it() {
         assert_eq!(hits(solid, &level(y)).len(), count, "{y}");
     }
 }
+
+#[test]
+fn a_ray_at_an_edge_of_a_block_is_not_inside_before_it() {
+    // It enters and leaves the block at the same `t`, nowhere near the sphere.
+    let min = Vec3A::new(0.16823988, 0.48326603, 0.59633446);
+    let max = Vec3A::new(0.16948433, 0.5454885, 0.7207793);
+    let thin = single(Block { extent: Aabb { min, max } });
+    let ball = single(Sphere { center: Vec3A::new(0.125, 0.75, 0.125), radius: 0.125 });
+    let origin = Vec3A::new(0.21732652, 0.76190054, 0.04052216);
+    let dir = Vec3A::new(-0.049086645, -0.21641207, 0.68025714);
+    let ray = Ray::new(origin, dir, RayKind::Camera);
+    assert_eq!(hits(&thin, &ray).len(), 2);
+    assert_eq!(hits(&csg(Intersection, &thin, &ball), &ray), []);
+    // What is cut out of the ball is all of the block, or nothing.
+    assert_eq!(hits(&csg(Difference, &ball, &thin), &ray), hits(&ball, &ray));
+}
