@@ -24,6 +24,10 @@ pub fn assert_equal(oracle: &dyn Object, nest: &dyn Object, rays: &[Ray], what: 
             let (expected, found) = (all(oracle, ray, &mut scratch), all(nest, ray, &mut scratch));
             assert_eq!(expected, found, "{what}, all hits of ray {i}: {ray:?}");
         }
+        if i % 8 == 0 && found.is_some() {
+            let (expected, found) = (oracle.surface(ray, &found), nest.surface(ray, &found));
+            assert_eq!(expected, found, "{what}, surface of ray {i}: {ray:?}");
+        }
         hits.push(found);
     }
     for level in Level::available().into_iter().chain([Scratch::counting().level]) {

@@ -10,12 +10,13 @@ use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Sides, Single};
-use nestray_shapes::sphere::Sphere;
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
 use nestray_techniques::registry::{Entry, Members, TECHNIQUES, find};
 use serde_json::Value;
 
 use crate::numbers::Numbers;
+use crate::shapes;
+use crate::solids::{self, Solid};
 
 /// A world, whatever nest it is put in.
 #[derive(Debug)]
@@ -27,7 +28,8 @@ pub struct Spec {
 
 #[derive(Debug)]
 enum Part {
-    Shapes(u32, Vec<Sphere>),
+    Shapes(Vec<Single<AnyShape>>),
+    Solid(u32, Solid),
     Mesh(u32, Arc<Triangles>),
     /// Several parts as one child.
     Group(Vec<Self>),
@@ -68,12 +70,8 @@ impl Spec {
             shared.push(made);
         }
         let (object, children) = group(&self.parts, &shared, way, &mut 1);
-        let aims = children
-            .iter()
-            .map(|child| child.bounds())
-            .filter(|bounds| bounds.is_bounded() && !bounds.is_empty())
-            .flat_map(|bounds| (0..8).map(move |i| bounds.corner(i)).chain([bounds.center()]))
-            .collect();
+        let mut numbers = Numbers::new(3);
+        let aims = children.iter().flat_map(|child| solids::aims(child, &mut numbers)).collect();
         (object, aims)
     }
 }
@@ -91,7 +89,7 @@ fn parts(
 
 fn part(numbers: &mut Numbers, geometry: &mut u32, depth: usize, shared: usize) -> Part {
     *geometry += 1;
-    match numbers.below(6) {
+    match numbers.below(7) {
         0 if depth > 0 => Part::Group(parts(numbers, geometry, depth - 1, shared, 3)),
         1..4 if shared > 0 => {
             let keys = if numbers.once_in(4) { 2 } else { 1 };
@@ -99,14 +97,30 @@ fn part(numbers: &mut Numbers, geometry: &mut u32, depth: usize, shared: usize) 
             Part::Placed(places, numbers.below(shared))
         }
         4 => Part::Mesh(*geometry, Arc::new(triangles(numbers))),
+        5 => {
+            let depth = 1 + numbers.below(2);
+            Part::Solid(*geometry, Solid::random(numbers, depth))
+        }
         _ => {
             let count = 1 + numbers.below(8);
-            let radius = |numbers: &mut Numbers| numbers.between(0.02, 0.2);
-            let sphere =
-                |numbers: &mut Numbers| Sphere { center: numbers.point(), radius: radius(numbers) };
-            Part::Shapes(*geometry, (0..count).map(|_| sphere(numbers)).collect())
+            Part::Shapes(some_shapes(numbers, *geometry, count))
         }
     }
+}
+
+/// Shapes of any kind; now and then one without end.
+fn some_shapes(numbers: &mut Numbers, geometry: u32, count: usize) -> Vec<Single<AnyShape>> {
+    let endless = numbers.once_in(12);
+    (0..count as u32)
+        .map(|primitive| {
+            let shape = match endless && primitive == 0 {
+                true => shapes::endless(numbers),
+                false => shapes::bounded(numbers),
+            };
+            let sides = *numbers.pick(&[Sides::Both, Sides::Both, Sides::Front, Sides::Back]);
+            Single { geometry, primitive, sides, shape }
+        })
+        .collect()
 }
 
 /// A strip on round numbers, or loose triangles.
@@ -141,14 +155,9 @@ fn group(
 
 fn object(part: &Part, shared: &[DynObject], way: &mut Way, number: &mut u32) -> DynObject {
     match part {
-        Part::Shapes(geometry, spheres) => {
-            let single = |(primitive, &sphere)| Single {
-                geometry: *geometry,
-                primitive,
-                sides: Sides::Both,
-                shape: AnyShape::from(sphere),
-            };
-            aggregate(Members::Shapes((0..).zip(spheres).map(single).collect()), way)
+        Part::Shapes(shapes) => aggregate(Members::Shapes(shapes.clone()), way),
+        Part::Solid(geometry, solid) => {
+            solid.object((*geometry, 0), &mut |members| aggregate(members, way))
         }
         Part::Mesh(geometry, triangles) => {
             aggregate(Members::Triangles(TriangleMesh::new(*geometry, Arc::clone(triangles))), way)

@@ -2,7 +2,10 @@
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
-use nestray_core::ray::{Ray, RayKind};
+use nestray_core::hit::Hit;
+use nestray_core::object::Object;
+use nestray_core::ray::{Ray, RayKind, Source};
+use nestray_core::scratch::Scratch;
 
 use crate::numbers::Numbers;
 
@@ -12,6 +15,30 @@ use crate::numbers::Numbers;
 pub fn hard(seed: u64, bounds: Aabb, aims: &[Vec3A], count: usize) -> Vec<Ray> {
     let mut numbers = Numbers::new(seed);
     (0..count).map(|_| ray(&mut numbers, bounds, aims)).collect()
+}
+
+/// The rays that follow: from where each of `first` hits `world`, along the surface, away from
+/// it as reflected and refracted light goes, and past it from outside.
+#[must_use]
+pub fn following(seed: u64, world: &dyn Object, first: &[Ray]) -> Vec<Ray> {
+    let mut numbers = Numbers::new(seed);
+    let mut scratch = Scratch::new();
+    let mut next = |ray: &Ray| {
+        let mut hit = Hit::none(ray.t_max());
+        world.closest_hit(ray, &mut hit, &mut scratch);
+        let surface = hit.is_some().then(|| world.surface(ray, &hit))??;
+        let along = surface.normal.cross(numbers.direction());
+        let source = Source { geometry: hit.geometry, primitive: hit.primitive, path: hit.path };
+        let dir = match numbers.below(3) {
+            0 => along,
+            1 => numbers.direction(),
+            // Past the point, from outside or from within.
+            _ => return Some(Ray::new(surface.position - along, along, ray.kind())),
+        };
+        let left = Ray::new(surface.leave(dir), dir, ray.kind());
+        Some(if numbers.once_in(3) { left } else { left.leaving(source) })
+    };
+    first.iter().filter_map(|ray| Some(next(ray)?.at_time(ray.time()))).collect()
 }
 
 fn ray(numbers: &mut Numbers, bounds: Aabb, aims: &[Vec3A]) -> Ray {

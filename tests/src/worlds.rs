@@ -8,13 +8,14 @@ use nestray_core::instance::Instance;
 use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
 use nestray_shapes::any::AnyShape;
-use nestray_shapes::shape::{Shape, Sides, Single};
-use nestray_shapes::sphere::Sphere;
+use nestray_shapes::shape::{Sides, Single};
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
 use nestray_techniques::registry::{Members, find};
 use serde_json::Value;
 
 use crate::numbers::Numbers;
+use crate::shapes;
+use crate::solids::{self, Solid};
 
 /// Children for an aggregate.
 #[derive(Debug)]
@@ -48,49 +49,51 @@ pub fn families(seed: u64) -> Vec<World> {
     let mut numbers = Numbers::new(seed);
     vec![
         objects(&mut numbers, 60),
-        shapes(&mut numbers, 80),
+        side_by_side(&mut numbers, 84),
         connected(&mut numbers, 8),
         soup(&mut numbers, 120),
         instances(&mut numbers, 24),
         moving(&mut numbers, 24),
         unbounded(&mut numbers, 40),
         repeated(&mut numbers, 30),
+        solids(&mut numbers, 12),
     ]
-}
-
-fn spheres(numbers: &mut Numbers, count: usize, geometry: u32) -> Vec<Single<AnyShape>> {
-    (0..count)
-        .map(|primitive| {
-            let radius = numbers.between(0.01, 0.12);
-            let shape = AnyShape::from(Sphere { center: numbers.point(), radius });
-            let sides = *numbers.pick(&[Sides::Both, Sides::Both, Sides::Front, Sides::Back]);
-            Single { geometry, primitive: primitive as u32, sides, shape }
-        })
-        .collect()
 }
 
 fn corners(bounds: Aabb) -> impl Iterator<Item = Vec3A> {
     (0..8).map(move |i| bounds.corner(i)).chain([bounds.center()])
 }
 
-fn aims_at(shapes: &[Single<AnyShape>]) -> Vec<Vec3A> {
-    let bounded = shapes.iter().map(|single| single.shape.bounds()).filter(|b| b.is_bounded());
-    bounded.flat_map(corners).collect()
+fn aims_at(shapes: &[Single<AnyShape>], numbers: &mut Numbers) -> Vec<Vec3A> {
+    shapes.iter().flat_map(|single| shapes::aims(&single.shape, numbers)).collect()
+}
+
+fn object(single: Single<AnyShape>) -> DynObject {
+    single.shape.into_object(single.geometry, single.primitive, single.sides)
 }
 
 /// Single shapes behind pointers.
 fn objects(numbers: &mut Numbers, count: usize) -> World {
-    let shapes = spheres(numbers, count, 0);
-    let aims = aims_at(&shapes);
+    let shapes = shapes::mixed(numbers, count, 0);
+    let aims = aims_at(&shapes, numbers);
     let objects = shapes.into_iter().map(|shape| Arc::new(shape) as DynObject).collect();
     World { name: "objects", members: Members::Objects(objects), aims }
 }
 
 /// Single shapes side by side.
-fn shapes(numbers: &mut Numbers, count: usize) -> World {
-    let shapes = spheres(numbers, count, 5);
-    let aims = aims_at(&shapes);
+fn side_by_side(numbers: &mut Numbers, count: usize) -> World {
+    let shapes = shapes::mixed(numbers, count, 5);
+    let aims = aims_at(&shapes, numbers);
     World { name: "shapes", members: Members::Shapes(shapes), aims }
+}
+
+/// Solids made of solids.
+fn solids(numbers: &mut Numbers, count: u32) -> World {
+    let depth = 1 + numbers.below(3);
+    let objects: Vec<DynObject> =
+        (0..count).map(|i| Solid::random(numbers, depth).object((9, i), &mut list)).collect();
+    let aims = objects.iter().flat_map(|object| solids::aims(object, numbers)).collect();
+    World { name: "solids", members: Members::Objects(objects), aims }
 }
 
 /// A landscape of connected triangles, its vertices on round numbers.
@@ -151,8 +154,9 @@ fn mesh(name: &'static str, triangles: Triangles, sides: Sides) -> World {
 }
 
 fn shared_inside(numbers: &mut Numbers) -> DynObject {
-    match numbers.below(2) {
-        0 => list(Members::Shapes(spheres(numbers, 12, 1))),
+    match numbers.below(4) {
+        0 | 1 => list(Members::Shapes(shapes::mixed(numbers, 14, 1))),
+        2 => list(solids(numbers, 3).members),
         _ => list(connected(numbers, 3).members),
     }
 }
@@ -197,67 +201,26 @@ fn placed(name: &'static str, objects: Vec<DynObject>) -> World {
     World { name, members: Members::Objects(objects), aims }
 }
 
-/// Some that no box can hold among some that one can.
+/// Some that no box can hold among some that one can, also in another space.
 fn unbounded(numbers: &mut Numbers, count: usize) -> World {
-    let mut world = objects(numbers, count);
-    if let Members::Objects(objects) = &mut world.members {
-        for geometry in 0..3 {
-            objects.push(Arc::new(Endless::new(numbers, 10 + geometry)));
-        }
+    let mut shapes = shapes::mixed(numbers, count, 0);
+    for (primitive, single) in (0..).zip(&mut shapes).step_by(10) {
+        *single = Single { primitive, ..Single::new(10, shapes::endless(numbers)) };
     }
-    World { name: "unbounded", ..world }
+    let aims = aims_at(&shapes, numbers);
+    let mut objects: Vec<DynObject> = shapes.into_iter().map(object).collect();
+    let inside =
+        vec![Single::new(11, shapes::endless(numbers)), Single::new(12, shapes::bounded(numbers))];
+    let inside = list(Members::Shapes(inside));
+    objects.push(Arc::new(Instance::new(1, inside, numbers.place(1.0))));
+    World { name: "unbounded", members: Members::Objects(objects), aims }
 }
 
 /// All in the same place, or several times the same.
 fn repeated(numbers: &mut Numbers, count: usize) -> World {
-    let one = spheres(numbers, 1, 0).remove(0);
+    let one = Single::new(0, shapes::bounded(numbers));
     let shapes: Vec<Single<AnyShape>> =
         (0..count).map(|i| Single { primitive: (i / 2) as u32, ..one.clone() }).collect();
-    let aims = aims_at(&shapes);
+    let aims = aims_at(&shapes[..1], numbers);
     World { name: "repeated", members: Members::Shapes(shapes), aims }
-}
-
-/// A sphere that claims to be everywhere.
-#[derive(Debug)]
-struct Endless(Single<Sphere>);
-
-impl Endless {
-    fn new(numbers: &mut Numbers, geometry: u32) -> Self {
-        Self(Single::new(geometry, Sphere { center: numbers.point(), radius: 0.3 }))
-    }
-}
-
-impl Object for Endless {
-    fn kind(&self) -> &'static str {
-        "endless"
-    }
-    fn bounds(&self) -> Aabb {
-        Aabb::ENDLESS
-    }
-    fn closest_hit(
-        &self,
-        ray: &nestray_core::ray::Ray,
-        hit: &mut nestray_core::hit::Hit,
-        scratch: &mut nestray_core::scratch::Scratch,
-    ) -> bool {
-        self.0.closest_hit(ray, hit, scratch)
-    }
-    fn all_hits(
-        &self,
-        ray: &nestray_core::ray::Ray,
-        hits: &mut Vec<nestray_core::hit::Hit>,
-        scratch: &mut nestray_core::scratch::Scratch,
-    ) {
-        self.0.all_hits(ray, hits, scratch);
-    }
-    fn surface(
-        &self,
-        ray: &nestray_core::ray::Ray,
-        hit: &nestray_core::hit::Hit,
-    ) -> Option<nestray_core::surface::Surface> {
-        self.0.surface(ray, hit)
-    }
-    fn cost(&self, model: &nestray_core::cost::CostModel) -> nestray_core::cost::Cost {
-        self.0.cost(model)
-    }
 }

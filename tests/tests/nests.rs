@@ -1,11 +1,11 @@
 //! Random nests answer as nested lists do, bit for bit.
 
+use glam::Vec3A;
 use nestray_core::aabb::Aabb;
-use nestray_core::object::Object;
 use nestray_tests::compare::assert_equal;
 use nestray_tests::nests::{Spec, Way};
 use nestray_tests::numbers::Numbers;
-use nestray_tests::rays::hard;
+use nestray_tests::rays::{following, hard};
 
 /// Rays over all nests; `NESTRAY_RAYS` asks for another number.
 fn rays() -> usize {
@@ -21,11 +21,11 @@ fn nests_to_depth_5_agree_with_lists() {
         let spec = Spec::random(&mut numbers, depth);
         let (oracle, aims) = spec.realise(&mut Way::Lists);
         let (nest, _) = spec.realise(&mut Way::Nested(numbers));
-        let bounds = match oracle.bounds() {
-            bounds if bounds.is_empty() => Aabb { min: glam::Vec3A::ZERO, max: glam::Vec3A::ONE },
-            bounds => bounds,
-        };
-        let rays = hard(seed, bounds, &aims, EACH);
+        let around = aims.iter().fold(Aabb::EMPTY, |all, &aim| all.with(aim));
+        let cube = Aabb { min: Vec3A::ZERO, max: Vec3A::ONE };
+        let bounds = if around.is_empty() { cube } else { around };
+        let mut rays = hard(seed, bounds, &aims, EACH * 3 / 4);
+        rays.extend(following(seed, &oracle, &rays[..EACH / 4]));
         assert_equal(&oracle, &nest, &rays, &format!("nest of depth {depth}, seed {seed}"));
     }
 }
