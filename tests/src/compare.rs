@@ -1,5 +1,7 @@
 //! Comparison with exhaustive search, bit for bit.
 
+use std::ops::Range;
+
 use nestray_core::hit::Hit;
 use nestray_core::object::Object;
 use nestray_core::ray::Ray;
@@ -39,9 +41,11 @@ pub fn assert_equal(oracle: &dyn Object, nest: &dyn Object, rays: &[Ray], what: 
 fn assert_batches(nest: &dyn Object, rays: &[Ray], expected: &[Hit], level: Level, what: &str) {
     let mut scratch = Scratch::with_level(level);
     let mut hits: Vec<Hit> = rays.iter().map(|ray| Hit::none(ray.t_max())).collect();
-    nest.closest_hits(rays, &mut hits, &mut scratch);
     let mut blocked = vec![false; rays.len()];
-    nest.any_hits(rays, &mut blocked, &mut scratch);
+    for batch in batches(rays.len()) {
+        nest.closest_hits(&rays[batch.clone()], &mut hits[batch.clone()], &mut scratch);
+        nest.any_hits(&rays[batch.clone()], &mut blocked[batch], &mut scratch);
+    }
     for (i, expected) in expected.iter().enumerate() {
         let ray = &rays[i];
         let found = &hits[i];
@@ -59,6 +63,18 @@ fn assert_batches(nest: &dyn Object, rays: &[Ray], expected: &[Hit], level: Leve
         let found = closest(nest, ray, &mut scratch);
         assert!(same(&expected[i], &found), "{what}, single on {level:?}, ray {i}: {ray:?}");
     }
+}
+
+/// All of `count` in batches of 1, 2, 3, 5, 8, … up to 4096.
+fn batches(count: usize) -> impl Iterator<Item = Range<usize>> {
+    let mut sizes = (1, 2);
+    let mut end = 0;
+    std::iter::from_fn(move || {
+        let start = end;
+        end = count.min(start + sizes.0);
+        sizes = (sizes.1, (sizes.0 + sizes.1).min(4096));
+        (start < end).then_some(start..end)
+    })
 }
 
 /// The nearest hit.
