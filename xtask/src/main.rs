@@ -19,6 +19,25 @@ const fn cargo(args: &'static [&'static str]) -> Step {
     Step { env: &[], args }
 }
 
+/// A test across crates, with more of everything than usual, that says what it did.
+macro_rules! long {
+    ($test:literal, $name:literal = $value:literal) => {
+        Step {
+            env: &[($name, $value)],
+            args: &[
+                "test",
+                "--release",
+                "-p",
+                "nestray-tests",
+                "--test",
+                $test,
+                "--",
+                "--nocapture",
+            ],
+        }
+    };
+}
+
 /// Builds of tests are optimised: they compare millions of rays.
 const CHORES: &[Chore] = &[
     Chore {
@@ -36,20 +55,13 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "conformance",
-        about: "every technique and ten million rays through random nests, against lists",
+        about: "ten million rays through every technique: random nests, closed meshes, pictures",
         steps: &[
-            Step {
-                env: &[("NESTRAY_RAYS", "10000000")],
-                args: &["test", "--release", "-p", "nestray-tests", "--test", "nests"],
-            },
-            Step {
-                env: &[("NESTRAY_RAYS", "400000")],
-                args: &["test", "--release", "-p", "nestray-tests", "--test", "conformance"],
-            },
-            Step {
-                env: &[("NESTRAY_RAYS", "40000000")],
-                args: &["test", "--release", "-p", "nestray-tests", "--test", "watertight"],
-            },
+            long!("nests", "NESTRAY_RAYS" = "10000000"),
+            long!("conformance", "NESTRAY_RAYS" = "200000"),
+            long!("watertight", "NESTRAY_RAYS" = "10000000"),
+            long!("pictures", "NESTRAY_RAYS" = "100000"),
+            long!("determinism", "NESTRAY_PICTURES" = "1000"),
         ],
     },
 ];
