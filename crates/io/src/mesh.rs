@@ -72,6 +72,32 @@ pub(crate) fn warn_unusable(triangles: &Triangles, source: &Source, warnings: &m
     }
 }
 
+/// What vertices have, one each, or none at all but places.
+#[derive(Debug, Default)]
+pub(crate) struct Vertices {
+    pub(crate) positions: Vec<[f32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) uvs: Vec<[f32; 2]>,
+    pub(crate) colors: Vec<[f32; 4]>,
+}
+
+impl Vertices {
+    /// The mesh of these faces, as a [`scene`].
+    pub(crate) fn finish(
+        self,
+        faces: Vec<[u32; 3]>,
+        source: &Source,
+        warnings: Vec<Warning>,
+    ) -> Result<Loaded, LoadError> {
+        let triangles = Triangles::new(self.positions, faces)
+            .and_then(|mesh| mesh.with_normals(self.normals))
+            .and_then(|mesh| mesh.with_uvs(self.uvs))
+            .and_then(|mesh| mesh.with_colors(self.colors))
+            .map_err(|error| refused(source, &error))?;
+        Ok(scene(triangles, source, warnings))
+    }
+}
+
 /// That a mesh cannot be made.
 pub(crate) fn refused(source: &Source, error: &MeshError) -> LoadError {
     source.spot().error(error.to_string())

@@ -1,11 +1,10 @@
 //! OFF: meshes as text, vertices and faces with or without colours.
 
 use nestray_scene::texture::linear_from_srgb;
-use nestray_shapes::triangle_mesh::Triangles;
 
 use crate::error::LoadError;
 use crate::load::{Loaded, Source};
-use crate::mesh::{self, Polygons};
+use crate::mesh::{Polygons, Vertices};
 use crate::words::{Word, Words};
 
 /// What a vertex has besides its place.
@@ -19,10 +18,7 @@ struct Extras {
 /// What has been read.
 #[derive(Debug, Default)]
 struct Mesh {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    colors: Vec<[f32; 4]>,
-    uvs: Vec<[f32; 2]>,
+    vertices: Vertices,
     polygons: Polygons,
     /// Whether there are colours of faces, which are left out.
     colored_faces: bool,
@@ -101,11 +97,11 @@ impl Mesh {
         count: usize,
         extras: Extras,
     ) -> Result<(), LoadError> {
-        self.positions.reserve_exact(count);
+        self.vertices.positions.reserve_exact(count);
         for _ in 0..count {
-            self.positions.push(words.triple("a coordinate")?);
+            self.vertices.positions.push(words.triple("a coordinate")?);
             if extras.normals {
-                self.normals.push(words.triple("a normal")?);
+                self.vertices.normals.push(words.triple("a normal")?);
             }
             if extras.colors {
                 let mut rest = Vec::with_capacity(6);
@@ -114,7 +110,7 @@ impl Mesh {
                 }
                 let uv =
                     if extras.uvs { rest.split_off(rest.len().saturating_sub(2)) } else { vec![] };
-                self.colors.push(color(words, &rest)?);
+                self.vertices.colors.push(color(words, &rest)?);
                 if extras.uvs {
                     let [u, v] = *uv else {
                         return Err(words.here().error("a vertex without texture coordinates"));
@@ -122,18 +118,18 @@ impl Mesh {
                     let number = |word: &Word<'_>| {
                         word.number().ok_or_else(|| words.unfit(word, "a texture coordinate"))
                     };
-                    self.uvs.push([number(&u)?, 1.0 - number(&v)?]);
+                    self.vertices.uvs.push([number(&u)?, 1.0 - number(&v)?]);
                 }
             } else if extras.uvs {
                 let what = "a texture coordinate";
-                self.uvs.push([words.number(what)?, 1.0 - words.number(what)?]);
+                self.vertices.uvs.push([words.number(what)?, 1.0 - words.number(what)?]);
             }
         }
         Ok(())
     }
 
     fn faces(&mut self, words: &mut Words<'_>, count: usize) -> Result<(), LoadError> {
-        let vertices = self.positions.len();
+        let vertices = self.vertices.positions.len();
         for _ in 0..count {
             let word = words.expect("a number of corners")?;
             let corners = word.whole().filter(|&n| n >= 0 && n as usize <= words.left());
@@ -158,13 +154,8 @@ impl Mesh {
         if self.colored_faces {
             warnings.push(source.spot().warning("colours of faces are left out"));
         }
-        let faces = self.polygons.triangles(&self.positions, source, &mut warnings);
-        let triangles = Triangles::new(self.positions, faces)
-            .and_then(|mesh| mesh.with_normals(self.normals))
-            .and_then(|mesh| mesh.with_uvs(self.uvs))
-            .and_then(|mesh| mesh.with_colors(self.colors))
-            .map_err(|error| mesh::refused(source, &error))?;
-        Ok(mesh::scene(triangles, source, warnings))
+        let faces = self.polygons.triangles(&self.vertices.positions, source, &mut warnings);
+        self.vertices.finish(faces, source, warnings)
     }
 }
 
@@ -187,6 +178,7 @@ fn color(words: &Words<'_>, given: &[Word<'_>]) -> Result<[f32; 4], LoadError> {
 #[cfg(test)]
 mod tests {
     use nestray_scene::geometry::Content;
+    use nestray_shapes::triangle_mesh::Triangles;
 
     use super::*;
 
@@ -194,7 +186,7 @@ mod tests {
         let loaded = read(text.as_bytes(), &Source::new("a.off")).expect("it is sound");
         match &loaded.scene.geometries[0].content {
             Content::Mesh(triangles) => (**triangles).clone(),
-            Content::Shapes(_) => unreachable!("OFF holds meshes"),
+            _ => unreachable!("OFF holds meshes"),
         }
     }
 

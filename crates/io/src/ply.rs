@@ -8,11 +8,10 @@ mod header;
 mod tests;
 
 use nestray_scene::texture::linear_from_srgb;
-use nestray_shapes::triangle_mesh::Triangles;
 
 use crate::error::{LoadError, Spot};
 use crate::load::{Loaded, Source};
-use crate::mesh::{self, Polygons};
+use crate::mesh::{Polygons, Vertices};
 use crate::ply::body::{Big, Binary, Little, Numbers};
 use crate::ply::header::{Element, Encoding, Header, Kind, Property};
 use crate::words::Words;
@@ -44,10 +43,7 @@ pub fn read(bytes: &[u8], source: &Source) -> Result<Loaded, LoadError> {
 /// What has been read.
 #[derive(Debug, Default)]
 struct Mesh {
-    positions: Vec<[f32; 3]>,
-    normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
-    colors: Vec<[f32; 4]>,
+    vertices: Vertices,
     polygons: Polygons,
     /// Triangles of strips.
     strips: Vec<[u32; 3]>,
@@ -99,7 +95,9 @@ impl Mesh {
                 return Err(source.line(element.line).error(message));
             }
             match element.name.as_str() {
-                "vertex" if mesh.positions.is_empty() => mesh.vertices(element, numbers)?,
+                "vertex" if mesh.vertices.positions.is_empty() => {
+                    mesh.vertices(element, numbers)?
+                }
                 "face" => mesh.faces(element, count, numbers)?,
                 "tristrips" => mesh.tristrips(element, count, numbers)?,
                 _ => skip_all(element, numbers)?,
@@ -128,7 +126,7 @@ impl Mesh {
             let message = "vertices without properties `x`, `y` and `z`";
             return Err(Spot { line: element.line, column: 0, ..numbers.here() }.error(message));
         }
-        self.positions.reserve_exact(element.count);
+        self.vertices.positions.reserve_exact(element.count);
         for _ in 0..element.count {
             let mut row = [0.0; NOWHERE + 1];
             row[11] = 1.0;
@@ -139,16 +137,16 @@ impl Mesh {
                 }
             }
             let [x, y, z, nx, ny, nz, s, t, r, g, b, a, _] = row;
-            self.positions.push([x, y, z]);
+            self.vertices.positions.push([x, y, z]);
             if normals {
-                self.normals.push([nx, ny, nz]);
+                self.vertices.normals.push([nx, ny, nz]);
             }
             if uvs {
-                self.uvs.push([s, 1.0 - t]);
+                self.vertices.uvs.push([s, 1.0 - t]);
             }
             if colors {
                 let linear = |x| if curve { linear_from_srgb(x) } else { x };
-                self.colors.push([linear(r), linear(g), linear(b), a]);
+                self.vertices.colors.push([linear(r), linear(g), linear(b), a]);
             }
         }
         Ok(())
@@ -221,14 +219,9 @@ impl Mesh {
 
     fn finish(self, source: &Source) -> Result<Loaded, LoadError> {
         let mut warnings = Vec::new();
-        let mut faces = self.polygons.triangles(&self.positions, source, &mut warnings);
+        let mut faces = self.polygons.triangles(&self.vertices.positions, source, &mut warnings);
         faces.extend(self.strips);
-        let triangles = Triangles::new(self.positions, faces)
-            .and_then(|mesh| mesh.with_normals(self.normals))
-            .and_then(|mesh| mesh.with_uvs(self.uvs))
-            .and_then(|mesh| mesh.with_colors(self.colors))
-            .map_err(|error| mesh::refused(source, &error))?;
-        Ok(mesh::scene(triangles, source, warnings))
+        self.vertices.finish(faces, source, warnings)
     }
 }
 

@@ -145,7 +145,7 @@ mod tests {
         let loaded = read(bytes, &Source::new("a.stl")).expect("it is sound");
         match &loaded.scene.geometries[0].content {
             Content::Mesh(triangles) => (**triangles).clone(),
-            Content::Shapes(_) => unreachable!("STL holds meshes"),
+            _ => unreachable!("STL holds meshes"),
         }
     }
 
