@@ -78,7 +78,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, default_value = "auto")]
     pub(crate) plan: String,
     /// How light is followed.
-    #[arg(long, default_value = "path")]
+    #[arg(long, default_value = "path", default_value_if("spd", "true", "whitted"))]
     pub(crate) integrator: IntegratorName,
     /// Pixels across and down; that of the scene, or 640x480.
     #[arg(long, value_name = "WxH", value_parser = values::resolution)]
@@ -119,9 +119,9 @@ pub(crate) struct RenderArgs {
     /// How samples become pixels.
     #[arg(long, default_value = "gaussian")]
     pub(crate) filter: FilterName,
-    /// Render by the rules of the standard procedural databases: 512x512 pixels, their
-    /// corners, the full tree of rays to depth 5, bytes in proportion to light.
-    #[arg(long, conflicts_with_all = ["integrator", "spp", "filter"])]
+    /// Render by the rules of the standard procedural databases: Whitted's model, 512x512
+    /// pixels, their corners, the full tree of rays to depth 5, bytes in proportion to light.
+    #[arg(long, conflicts_with_all = ["spp", "filter"])]
     pub(crate) spd: bool,
     /// How far something may be to count for ambient occlusion.
     #[arg(long, value_name = "DISTANCE")]

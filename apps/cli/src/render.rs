@@ -26,6 +26,7 @@ pub(crate) use self::settings::RESOLUTION;
 
 pub(crate) fn run(args: &RenderArgs, talk: &Talk) -> Result<(), Failure> {
     let (progress, mut stats) = (Progress::new(talk), Stats::new());
+    settings::check(args)?;
     for frame in args.frames.map_or_else(|| vec![None], some_frames) {
         output::check_pictures(
             &args.output.iter().map(|p| numbered(p, frame)).collect::<Vec<_>>(),

@@ -13,6 +13,14 @@ use crate::errors::Failure;
 /// Pixels across and down if nobody says otherwise.
 pub(crate) const RESOLUTION: [u32; 2] = [640, 480];
 
+/// Refuses words that contradict each other.
+pub(super) fn check(args: &RenderArgs) -> Result<(), Failure> {
+    if args.spd && args.integrator != IntegratorName::Whitted {
+        return Err(Failure::usage("--spd: goes with --integrator whitted only"));
+    }
+    Ok(())
+}
+
 pub(super) fn options(args: &RenderArgs, scene: &Scene) -> Result<Options, Failure> {
     let camera = camera(args.camera.as_deref(), scene)?;
     let mut options = if args.spd {
