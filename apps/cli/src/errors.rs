@@ -74,7 +74,7 @@ impl From<WriteError> for Failure {
 impl From<RenderError> for Failure {
     fn from(error: RenderError) -> Self {
         let code = match error {
-            RenderError::Places(_) => Self::UNREADABLE,
+            RenderError::Scene(_) => Self::UNREADABLE,
             RenderError::Threads(_) => Self::FAILED,
             _ => Self::USAGE,
         };

@@ -148,6 +148,7 @@ pub fn read(bytes: &[u8], source: &Source) -> Result<Loaded, LoadError> {
     if source.options.complete {
         complete::complete(&mut loaded.scene);
     }
+    loaded.scene.check().map_err(|error| source.spot().error(error.to_string()))?;
     Ok(loaded)
 }
 

@@ -12,6 +12,7 @@ mod layout;
 mod light;
 mod material;
 mod shape;
+mod solid;
 mod texture;
 mod transform;
 
@@ -261,6 +262,6 @@ fn content(
         (None, Some(file)) => {
             files.content(file, source, chain).map_err(|why| format!(".file: {why}"))
         }
-        (None, None) => Err(": it needs one of mesh, shapes and file".into()),
+        (None, None) => Err(": it needs one of mesh, shapes, solids and file".into()),
     }
 }

@@ -12,6 +12,7 @@ use nestray_core::object::DynObject;
 use nestray_scene::geometry::{Content, Geometry};
 use nestray_scene::group::Motion;
 use nestray_scene::scene::Scene;
+use nestray_scene::solid::Solid;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::triangle_mesh::TriangleMesh;
@@ -21,7 +22,9 @@ use serde_json::Value;
 
 use crate::check::{Resolved, Tree, resolve};
 use crate::error::PlanError;
+use crate::fingerprint;
 use crate::plan::{Nest, Plan};
+use crate::single::AUTO;
 
 /// The objects of a plan. Hits name geometries, primitives and instances as the scene counts
 /// them, whatever the plan; the same plan and scene make the same objects.
@@ -57,6 +60,10 @@ impl<'a> Builder<'a> {
     /// If the plan does not pass [`check`](crate::check::check).
     pub fn build(&mut self, scene: &Scene) -> Result<DynObject, PlanError> {
         let resolved = resolve(self.plan, scene)?;
+        if self.before.is_none() {
+            // Frames of one scene do not differ in it.
+            fingerprint::check(self.plan, scene)?;
+        }
         let rests = match &self.before {
             Some((before, _)) => rests::rests(before, scene),
             None => vec![false; scene.groups.len()],
@@ -130,7 +137,7 @@ fn recipe(
     }
 }
 
-/// The primitives of a geometry: a mesh as a whole, shapes one by one.
+/// The primitives of a geometry: a mesh as a whole, shapes and solids one by one.
 fn parts(number: usize, geometry: &Geometry) -> Vec<Part> {
     let (id, sides) = (number as u32, geometry.sides);
     match &geometry.content {
@@ -144,7 +151,20 @@ fn parts(number: usize, geometry: &Geometry) -> Vec<Part> {
             };
             (0..).zip(shapes.iter()).map(single).collect()
         }
+        Content::Solids(solids) => {
+            let object = |(primitive, solid): (u32, &Solid)| {
+                Part::Object(solid.object([id, primitive], sides, &operand))
+            };
+            (0..).zip(solids.iter()).map(object).collect()
+        }
     }
+}
+
+/// A mesh within a solid, which is asked for all hits and has to answer wherever it stands.
+fn operand(mesh: TriangleMesh) -> DynObject {
+    let small = mesh.triangles().count() <= Nest::TINY;
+    let entry = if small { list() } else { registry::find(AUTO).expect("it is a technique") };
+    (entry.build)(&Value::Null, Members::Triangles(mesh)).expect("the defaults are sound")
 }
 
 fn placed(number: u32, object: DynObject, motion: &Motion, scene: &Scene) -> DynObject {

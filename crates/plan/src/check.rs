@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 use nestray_core::by_kind::Case;
 use nestray_core::technique;
+use nestray_scene::check::SceneError;
 use nestray_scene::group::Motion;
 use nestray_scene::paths::Paths;
 use nestray_scene::scene::Scene;
@@ -17,16 +18,19 @@ use serde_json::Value;
 use self::cover::settle;
 use self::universe::Universe;
 use crate::error::{PlanError, Problem};
+use crate::fingerprint;
 use crate::plan::{Node, Plan};
 
 /// Checks that a plan can be built for a scene: that its techniques, settings, names and
 /// shared subtrees exist, that it is not too deep, that every technique can serve where it
-/// stands, and that it holds every geometry and instance once.
+/// stands, that it holds every geometry and instance once, and that it is made for no other
+/// scene.
 ///
 /// # Errors
 /// The first thing that is wrong, and where.
 pub fn check(plan: &Plan, scene: &Scene) -> Result<(), PlanError> {
-    resolve(plan, scene).map(|_| ())
+    resolve(plan, scene)?;
+    fingerprint::check(plan, scene)
 }
 
 /// Checks what can be checked without a scene.
@@ -79,7 +83,8 @@ pub(crate) struct Leaf {
 /// Looks every name up.
 pub(crate) fn resolve<'a>(plan: &'a Plan, scene: &'a Scene) -> Result<Resolved<'a>, PlanError> {
     form::form(plan)?;
-    let paths = Paths::new(scene)?;
+    scene.check_places()?;
+    let paths = Paths::new(scene).map_err(SceneError::from)?;
     let mut moves = vec![None; scene.groups.len()];
     for group in 0..scene.groups.len() {
         group_moves(scene, group, &mut moves);

@@ -1,6 +1,6 @@
 //! What can be wrong with a plan.
 
-use nestray_scene::paths::PathsError;
+use nestray_scene::check::SceneError;
 use nestray_techniques::registry::SettingsError;
 use thiserror::Error;
 
@@ -27,9 +27,9 @@ pub enum PlanError {
         /// What is wrong there.
         problem: Problem,
     },
-    /// The groups of the scene cannot be placed.
+    /// The parts of the scene do not fit together.
     #[error("the scene: {0}")]
-    Scene(#[from] PathsError),
+    Scene(#[from] SceneError),
 }
 
 /// What is wrong at some place of a plan.
@@ -38,6 +38,21 @@ pub enum Problem {
     /// It is of a format not known.
     #[error("format {0} is not known, only {known}", known = Plan::VERSION)]
     Version(u32),
+    /// It is made for another scene.
+    #[error(
+        "made for the scene {expected}, but this one is {found}: {geometries} geometries and \
+         {primitives} primitives"
+    )]
+    OtherScene {
+        /// The fingerprint in the plan.
+        expected: String,
+        /// That of the scene.
+        found: String,
+        /// How many the scene has.
+        geometries: usize,
+        /// How many the scene stores.
+        primitives: u64,
+    },
     /// There is no such thing.
     #[error("unknown {what} \"{name}\"{}", hint(.nearest.as_deref()))]
     Unknown {

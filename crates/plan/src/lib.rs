@@ -11,6 +11,8 @@ pub mod schema;
 
 pub mod error;
 
+pub mod fingerprint;
+
 pub mod check;
 
 pub mod build;

@@ -20,7 +20,8 @@ use crate::select::Selection;
 pub struct Plan {
     /// Of the format: 1.
     pub version: u32,
-    /// The fingerprint of the scene it was made for, if it was made for one.
+    /// The fingerprint of the scene it was made for, if it was made for one; then it is refused
+    /// for any other. `nestray inspect` says that of a scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<String>,
     /// Subtrees that instances place, each built once.

@@ -19,7 +19,7 @@ pub const AUTO: &str = "bvh";
 /// [`AUTO`].
 ///
 /// # Errors
-/// If the technique is not known.
+/// If the technique is not known, or the parts of the scene do not fit together.
 pub fn single(
     technique: &str,
     params: Map<String, Value>,
@@ -30,6 +30,7 @@ pub fn single(
         let problem = Problem::unknown("technique", technique, registry::names());
         return Err(PlanError::at("root/nest/technique", problem));
     };
+    scene.check_places()?;
     let below = technique::Place { instances: 1, moving: false };
     let refused = (entry.objection)(&Value::Object(params.clone()), &below);
     let within = match refused {

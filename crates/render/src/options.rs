@@ -1,7 +1,7 @@
 //! What a render is asked for, and what is refused.
 
 use nestray_core::simd::Level;
-use nestray_scene::paths::PathsError;
+use nestray_scene::check::SceneError;
 use nestray_scene::scene::Scene;
 use thiserror::Error;
 
@@ -248,9 +248,9 @@ pub enum RenderError {
         /// How many there are.
         cameras: usize,
     },
-    /// The instances of the scene cannot be numbered.
+    /// The scene makes no sense.
     #[error("scene: {0}")]
-    Places(#[from] PathsError),
+    Scene(#[from] SceneError),
     /// Threads could not be started.
     #[error("threads: {0}")]
     Threads(String),

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nestray_core::counters::Counters;
 use nestray_core::object::Object;
 use nestray_core::scratch::Scratch;
+use nestray_scene::check::SceneError;
 use nestray_scene::picture::Picture;
 use nestray_scene::scene::Scene;
 use nestray_scene::surfaces::Surfaces;
@@ -48,7 +49,8 @@ pub struct Rendered {
 /// threads, the tiles, the batches and the vector instructions.
 ///
 /// # Errors
-/// If the options make no sense, or threads cannot be started.
+/// If the scene does not pass [`check_names`](Scene::check_names), the options make no sense, or
+/// threads cannot be started.
 ///
 /// # Panics
 /// If `world` reports hits that are not of the scene.
@@ -69,8 +71,9 @@ pub(crate) fn render_by(
     watch: &dyn Watch,
     direct: Direct,
 ) -> Result<Rendered, RenderError> {
+    scene.check_names()?;
     options.check(scene)?;
-    let surfaces = Surfaces::new(scene)?;
+    let surfaces = Surfaces::new(scene).map_err(SceneError::from)?;
     let cost = options.integrator == Integrator::Cost;
     let keep = Keep { layers: options.layers, cost };
     let film = Film::new(options.window(), options.filter == Filter::Corners, keep);

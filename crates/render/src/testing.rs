@@ -14,6 +14,7 @@ use nestray_scene::material::Material;
 use nestray_scene::paths::Paths;
 use nestray_scene::picture::{Layer, Picture};
 use nestray_scene::scene::Scene;
+use nestray_scene::solid::Solid;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::parallelogram::Parallelogram;
 use nestray_shapes::shape::Single;
@@ -63,6 +64,14 @@ fn geometry(number: u32, geometry: &Geometry) -> DynObject {
             };
             let singles: Vec<Single<AnyShape>> = shapes.iter().enumerate().map(single).collect();
             Arc::new(Bvh::new(BvhParams::default(), singles))
+        }
+        Content::Solids(solids) => {
+            let mesh = |mesh| Arc::new(Bvh::new(BvhParams::default(), mesh)) as DynObject;
+            let object = |(primitive, solid): (u32, &Solid)| {
+                solid.object([number, primitive], geometry.sides, &mesh)
+            };
+            let objects: Vec<DynObject> = (0..).zip(solids.iter()).map(object).collect();
+            Arc::new(Bvh::new(BvhParams::default(), objects))
         }
     }
 }

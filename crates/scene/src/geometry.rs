@@ -7,6 +7,8 @@ use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Shape, Sides};
 use nestray_shapes::triangle_mesh::Triangles;
 
+use crate::solid::Solid;
+
 /// A set of primitives of one material. Hits count geometries in file order, and primitives
 /// within each.
 #[derive(Clone, Debug)]
@@ -28,6 +30,9 @@ pub enum Content {
     Mesh(Arc<Triangles>),
     /// Single shapes.
     Shapes(Arc<Vec<AnyShape>>),
+    /// Solids made of solids. Where they glow, they are lights that only scattered rays find,
+    /// as are shapes whose emission has a texture.
+    Solids(Arc<Vec<Solid>>),
 }
 
 impl Geometry {
@@ -45,12 +50,20 @@ impl Geometry {
         Self { name: name.into(), material, sides: Sides::Both, content }
     }
 
+    /// Solids made of solids, seen from both sides.
+    #[must_use]
+    pub fn solids(name: impl Into<String>, material: usize, solids: Vec<Solid>) -> Self {
+        let content = Content::Solids(Arc::new(solids));
+        Self { name: name.into(), material, sides: Sides::Both, content }
+    }
+
     /// How many primitives there are.
     #[must_use]
     pub fn primitives(&self) -> u32 {
         match &self.content {
             Content::Mesh(triangles) => triangles.count(),
             Content::Shapes(shapes) => shapes.len() as u32,
+            Content::Solids(solids) => solids.len() as u32,
         }
     }
 
@@ -62,6 +75,7 @@ impl Geometry {
                 (0..triangles.count()).map(|triangle| triangles.bounds(triangle)).collect()
             }
             Content::Shapes(shapes) => shapes.iter().map(Shape::bounds).collect(),
+            Content::Solids(solids) => solids.iter().map(Solid::bounds).collect(),
         };
         all.into_iter()
             .filter(|bounds| !bounds.is_empty() && bounds.is_bounded())

@@ -6,9 +6,13 @@ pub mod scene;
 
 pub mod geometry;
 
+pub mod solid;
+
 pub mod group;
 
 pub mod paths;
+
+pub mod check;
 
 pub mod surfaces;
 

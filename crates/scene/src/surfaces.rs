@@ -1,23 +1,28 @@
 //! What a hit looks like, looked up by its ids.
 
+use std::sync::Arc;
+
 use glam::Affine3A;
 use nestray_core::hit::{Hit, InstancePath};
 use nestray_core::instance::Still;
-use nestray_core::object::Object;
+use nestray_core::object::{DynObject, Object as _};
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 use nestray_shapes::shape::Single;
 
-use crate::geometry::Content;
+use crate::geometry::{Content, Geometry};
 use crate::group::Motion;
 use crate::paths::{Paths, PathsError};
 use crate::scene::Scene;
+use crate::solid::{Shell, Solid};
 
 /// Finds the surface of a hit in a scene, whatever nest found the hit.
-#[derive(Debug)]
+#[expect(missing_debug_implementations, reason = "objects say what they are by other ways")]
 pub struct Surfaces<'a> {
     scene: &'a Scene,
     paths: Paths,
+    /// The solids of each geometry.
+    solids: Vec<Vec<DynObject>>,
 }
 
 /// A surface, and what it is made of.
@@ -37,7 +42,9 @@ impl<'a> Surfaces<'a> {
     /// # Errors
     /// If its places cannot be numbered.
     pub fn new(scene: &'a Scene) -> Result<Self, PathsError> {
-        Ok(Self { scene, paths: Paths::new(scene)? })
+        let paths = Paths::new(scene)?;
+        let solids = (0..).zip(&scene.geometries).map(|(id, geometry)| objects(id, geometry));
+        Ok(Self { scene, paths, solids: solids.collect() })
     }
 
     /// The scene.
@@ -66,11 +73,16 @@ impl<'a> Surfaces<'a> {
                 (triangles.surface(hit.primitive, uv), triangles.color(hit.primitive, uv))
             }
             Content::Shapes(shapes) => {
-                let inside =
-                    places.iter().fold(*ray, |ray, (to_from, _)| ray.entering(to_from, 1, 1));
+                let inside = inside(ray, &places);
                 let single = Single::new(hit.geometry, &shapes[hit.primitive as usize]);
                 let hit = Hit { primitive: 0, path: InstancePath::NONE, ..*hit };
                 (single.surface(&inside, &hit).expect("the hit is of it"), None)
+            }
+            Content::Solids(_) => {
+                let solid = &self.solids[hit.geometry as usize][hit.primitive as usize];
+                let hit = Hit { path: InstancePath::NONE, ..*hit };
+                let surface = solid.surface(&inside(ray, &places), &hit);
+                (surface.expect("the hit is of it"), None)
             }
         };
         let surface =
@@ -90,6 +102,20 @@ impl<'a> Surfaces<'a> {
             };
         self.paths.places(path).into_iter().map(place).collect()
     }
+}
+
+/// The solids of a geometry, to be asked for surfaces: no technique is needed for that.
+fn objects(number: u32, geometry: &Geometry) -> Vec<DynObject> {
+    let Content::Solids(solids) = &geometry.content else { return Vec::new() };
+    let object = |(primitive, solid): (u32, &Solid)| {
+        solid.object([number, primitive], geometry.sides, &|mesh| Arc::new(Shell::new(mesh)))
+    };
+    (0..).zip(solids.iter()).map(object).collect()
+}
+
+/// The ray in the space of the last place.
+fn inside(ray: &Ray, places: &[(Affine3A, Affine3A)]) -> Ray {
+    places.iter().fold(*ray, |ray, (to_from, _)| ray.entering(to_from, 1, 1))
 }
 
 fn both(motion: &impl nestray_core::instance::Motion, time: f32) -> (Affine3A, Affine3A) {

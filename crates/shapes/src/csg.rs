@@ -14,6 +14,7 @@ use nestray_core::surface::Surface;
 
 use self::combine::{Change, Merge};
 use self::track::{Memory, enters, is_told};
+use crate::shape::Sides;
 
 /// What is kept of two solids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -41,6 +42,7 @@ pub struct Csg<L = DynObject, R = DynObject> {
     geometry: u32,
     primitive: u32,
     operation: Operation,
+    sides: Sides,
     left: L,
     right: R,
     /// Whether an operand's hits tell by themselves whether they enter it.
@@ -54,7 +56,15 @@ impl<L: Object, R: Object> Csg<L, R> {
     pub fn new(geometry: u32, primitive: u32, operation: Operation, left: L, right: R) -> Self {
         let told = [is_told(&left), is_told(&right)];
         let bounds = operation.bounds(left.bounds(), right.bounds());
-        Self { geometry, primitive, operation, left, right, told, bounds }
+        let sides = Sides::Both;
+        Self { geometry, primitive, operation, sides, left, right, told, bounds }
+    }
+
+    /// The same solid seen from some sides only: where rays enter it, or where they leave it.
+    /// One of which not both are seen is no operand of another.
+    #[must_use]
+    pub fn seen_from(self, sides: Sides) -> Self {
+        Self { sides, ..self }
     }
 
     /// What is kept.
@@ -103,7 +113,7 @@ impl<L: Object, R: Object> Csg<L, R> {
     /// The same for changes within the range of the ray.
     fn each_hit(&self, ray: &Ray, scratch: &mut Scratch, mut found: impl FnMut(&Hit) -> bool) {
         self.each_change(ray, scratch, |change| {
-            if change.t < ray.t_min() {
+            if change.t < ray.t_min() || !self.sides.show(change.enters) {
                 return true;
             }
             let (u, v) = (f32::from(change.enters), f32::from(change.right));

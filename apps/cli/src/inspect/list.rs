@@ -24,6 +24,7 @@ const SHAPES: &[(&str, &str)] = &[
     ("quadric", "any surface of degree two, cut by a box"),
     ("bezier", "a bicubic patch"),
     ("height-field", "a grid of heights"),
+    ("csg", "a solid made of two: union, intersection, difference"),
     ("triangle", "of a mesh, tested eight at a time"),
 ];
 

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use nestray::core::cost::CostModel;
 use nestray::plan::build::build;
 use nestray::plan::describe::describe;
+use nestray::plan::fingerprint::fingerprint;
 use nestray::prelude::{Content, DynObject, Scene, Shape as _};
-use nestray::scene::paths::Paths;
 use serde_json::{Value, json};
 
 use super::{Report, ray};
@@ -20,7 +20,7 @@ pub(super) fn report(
     choice: &Choice,
     args: &InspectArgs,
 ) -> Result<Report, Failure> {
-    Paths::new(scene).map_err(|error| Failure::new(Failure::UNREADABLE, error))?;
+    scene.check().map_err(|error| Failure::new(Failure::UNREADABLE, error))?;
     let mut report = counts(scene);
     if args.tree || args.ray.is_some() {
         let scene = scene.frame(0.0, 0.0);
@@ -43,6 +43,7 @@ fn counts(scene: &Scene) -> Report {
     for geometry in &scene.geometries {
         match &geometry.content {
             Content::Mesh(mesh) => *kinds.entry("triangle").or_default() += u64::from(mesh.count()),
+            Content::Solids(solids) => *kinds.entry("csg").or_default() += solids.len() as u64,
             Content::Shapes(shapes) => {
                 for shape in shapes.iter() {
                     *kinds.entry(shape.kind()).or_default() += 1;
@@ -53,6 +54,8 @@ fn counts(scene: &Scene) -> Report {
     let bounds = scene.bounds();
     let (min, max) = (bounds.min.to_array(), bounds.max.to_array());
     let mut text = String::new();
+    let fingerprint = fingerprint(scene);
+    let _ = writeln!(text, "fingerprint {fingerprint}");
     let _ = writeln!(text, "geometries  {}", scene.geometries.len());
     let _ = writeln!(text, "primitives  {stored} stored, {} seen", scene.primitives());
     for (kind, count) in &kinds {
@@ -68,7 +71,7 @@ fn counts(scene: &Scene) -> Report {
     if duration > 0.0 {
         let _ = writeln!(text, "animation   {duration} s");
     }
-    let json = json!({ "geometries": scene.geometries.len(), "primitives_stored": stored,
+    let json = json!({ "fingerprint": fingerprint, "geometries": scene.geometries.len(), "primitives_stored": stored,
         "primitives": scene.primitives(), "kinds": kinds, "groups": scene.groups.len(),
         "places": places, "bounds": [min, max], "materials": scene.materials.len(),
         "textures": scene.textures.len(), "lights": scene.lights.len(),

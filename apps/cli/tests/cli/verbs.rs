@@ -23,6 +23,47 @@ fn a_render_is_the_same_with_any_plan_and_any_threads() {
 }
 
 #[test]
+fn solids_are_the_same_in_any_nest_and_from_a_file() {
+    let folder = Folder::new();
+    let made = folder.path("mixed.json");
+    nestray(&["convert", "builtin:mixed@2", "-o", &made]).succeeds();
+    for integrator in ["whitted", "path"] {
+        let render = |scene: &str, plan: &str| {
+            let out = folder.path("a.pfm");
+            let mut args = vec!["render", scene, "-o", &out, "--resolution", "80x60"];
+            args.extend(["--spp", "1", "--max-depth", "4", "--plan", plan]);
+            args.extend(["--integrator", integrator]);
+            nestray(&args).succeeds();
+            fs::read(&out).expect("it was written")
+        };
+        let first = render("builtin:mixed@2", "list");
+        assert!(render("builtin:mixed@2", "bvh") == first, "{integrator}, bvh");
+        assert!(render("builtin:mixed@2", "grid") == first, "{integrator}, grid");
+        assert!(render(&made, "bvh") == first, "{integrator}, from a file");
+    }
+    let said = nestray(&["inspect", &made, "--tree"]).succeeds().output;
+    assert!(said.contains("8 × csg") && said.contains("csg  Difference"), "{said}");
+}
+
+#[test]
+fn the_standard_procedure_takes_the_model_it_implies_and_no_other() {
+    let folder = Folder::new();
+    let render = |name: &str, more: &[&str]| {
+        let out = folder.path(name);
+        let args = ["render", "builtin:tetra@2", "-o", &out, "--resolution", "32x32", "--spd"];
+        nestray(&[&args[..], more].concat())
+    };
+    render("a.png", &[]).succeeds();
+    render("b.png", &["--integrator", "whitted"]).succeeds();
+    let read = |name: &str| fs::read(folder.path(name)).expect("written");
+    assert!(read("a.png") == read("b.png"));
+    for other in ["path", "ao", "cost"] {
+        render("c.png", &["--integrator", other]).fails(2, &["--spd", "--integrator whitted"]);
+    }
+    render("c.png", &["--spp", "4"]).fails(2, &["--spd", "--spp"]);
+}
+
+#[test]
 fn several_pictures_and_statistics_come_of_one_render() {
     let folder = Folder::new();
     let names = ["a.png", "a.exr", "a.pfm"].map(|name| folder.path(name));
@@ -146,6 +187,24 @@ fn plans_are_looked_at_and_used() {
     let out = folder.path("a.png");
     nestray(&["render", "builtin:mount@2", "--plan", &plan, "-o", &out, "--spp", "1"]).succeeds();
     assert!(fs::read(&out).expect("it was written").starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn a_plan_made_for_a_scene_is_used_with_no_other() {
+    let folder = Folder::new();
+    let said = nestray(&["inspect", "builtin:tetra@2", "--json"]).succeeds().output;
+    let json: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+    let mark = json["fingerprint"].as_str().expect("there is one");
+    let plan = format!(r#"{{ "version": 1, "scene": "{mark}", "root": {{ "pick": "*" }} }}"#);
+    let plan = folder.write("plan.json", &plan);
+    let out = folder.path("a.pfm");
+    let render = |scene: &str| {
+        nestray(&["render", scene, "-o", &out, "--plan", &plan, "--resolution", "8x8"])
+    };
+    render("builtin:tetra@2").succeeds();
+    let words = ["plan.json: scene: made for the scene", mark, "1 geometries and 64 primitives"];
+    render("builtin:tetra@3").fails(3, &words);
+    assert!(nestray(&["inspect", &plan]).succeeds().output.contains(mark));
 }
 
 #[test]

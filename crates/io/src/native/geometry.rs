@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use super::number;
 use super::shape::Shape;
+use super::solid::Solid;
 
-/// A set of primitives of one material: one of `mesh`, `shapes` and `file`.
+/// A set of primitives of one material: one of `mesh`, `shapes`, `solids` and `file`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Geometry {
@@ -27,6 +28,9 @@ pub(super) struct Geometry {
     /// Single shapes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) shapes: Option<Vec<Shape>>,
+    /// Solids made of solids.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) solids: Option<Vec<Solid>>,
     /// A file beside this one that holds one geometry, of any format that is read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) file: Option<String>,
@@ -67,20 +71,27 @@ pub(super) struct Mesh {
 impl Geometry {
     /// What it consists of; none if that is in a file.
     pub(super) fn content(&self) -> Result<Option<Content>, String> {
-        match (&self.mesh, &self.shapes, &self.file) {
-            (Some(mesh), None, None) => {
+        match (&self.mesh, &self.shapes, &self.solids, &self.file) {
+            (Some(mesh), None, None, None) => {
                 let triangles = mesh.build().map_err(|why| format!(".mesh: {why}"))?;
                 Ok(Some(Content::Mesh(Arc::new(triangles))))
             }
-            (None, Some(shapes), None) => {
+            (None, Some(shapes), None, None) => {
                 let build = |(i, shape): (usize, &Shape)| {
                     shape.build().map_err(|why| format!(".shapes[{i}]{why}"))
                 };
                 let shapes = shapes.iter().enumerate().map(build).collect::<Result<_, _>>()?;
                 Ok(Some(Content::Shapes(Arc::new(shapes))))
             }
-            (None, None, Some(_)) => Ok(None),
-            _ => Err(": it needs one of mesh, shapes and file".into()),
+            (None, None, Some(solids), None) => {
+                let build = |(i, solid): (usize, &Solid)| {
+                    solid.build().map_err(|why| format!(".solids[{i}]{why}"))
+                };
+                let solids = solids.iter().enumerate().map(build).collect::<Result<_, _>>()?;
+                Ok(Some(Content::Solids(Arc::new(solids))))
+            }
+            (None, None, None, Some(_)) => Ok(None),
+            _ => Err(": it needs one of mesh, shapes, solids and file".into()),
         }
     }
 
@@ -99,22 +110,24 @@ impl Geometry {
     }
 
     pub(super) fn of(geometry: &SceneGeometry) -> Self {
-        let (mesh, shapes) = match &geometry.content {
-            Content::Mesh(triangles) => (Some(Mesh::of(triangles)), None),
-            Content::Shapes(shapes) => (None, Some(shapes.iter().map(Shape::of).collect())),
-        };
+        let mut made = Self::default();
+        match &geometry.content {
+            Content::Mesh(triangles) => made.mesh = Some(Mesh::of(triangles)),
+            Content::Shapes(shapes) => made.shapes = Some(shapes.iter().map(Shape::of).collect()),
+            Content::Solids(solids) => made.solids = Some(solids.iter().map(Solid::of).collect()),
+        }
         let sides = match geometry.sides {
             SceneSides::Both => Sides::Both,
             SceneSides::Front => Sides::Front,
             SceneSides::Back => Sides::Back,
         };
         let (name, material) = (geometry.name.clone(), geometry.material);
-        Self { name, material, sides, mesh, shapes, file: None }
+        Self { name, material, sides, ..made }
     }
 }
 
 impl Mesh {
-    fn build(&self) -> Result<Triangles, String> {
+    pub(super) fn build(&self) -> Result<Triangles, String> {
         Triangles::new(self.positions.clone(), self.faces.clone())
             .and_then(|mesh| mesh.with_normals(self.normals.clone()))
             .and_then(|mesh| mesh.with_uvs(self.uvs.clone()))
@@ -122,7 +135,7 @@ impl Mesh {
             .map_err(|error| error.to_string())
     }
 
-    fn of(triangles: &Triangles) -> Self {
+    pub(super) fn of(triangles: &Triangles) -> Self {
         // JSON has no words for what is no number. Triangles there are never seen; with a
         // corner as far out as this neither.
         let finite = |x: f32| if x.is_finite() { x } else { f32::MAX };

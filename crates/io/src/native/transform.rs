@@ -106,7 +106,7 @@ impl Transform {
         self.pose().map(|pose| matrix(&pose))
     }
 
-    fn of_matrix(place: &Affine3A) -> Self {
+    pub(super) fn of_matrix(place: &Affine3A) -> Self {
         if *place == Affine3A::IDENTITY {
             return Self::default();
         }

@@ -22,7 +22,7 @@ fn error(text: &str) -> String {
 fn shapes(scene: &Scene, geometry: usize) -> &[AnyShape] {
     match &scene.geometries[geometry].content {
         Content::Shapes(shapes) => shapes,
-        Content::Mesh(_) => unreachable!("NFF holds no meshes"),
+        _ => unreachable!("NFF holds no meshes"),
     }
 }
 

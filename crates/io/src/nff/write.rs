@@ -116,6 +116,7 @@ impl<W: Write> Writer<'_, W> {
                 Content::Shapes(shapes) => {
                     shapes.iter().try_for_each(|shape| self.shape(shape, geometry.sides, place))?;
                 }
+                Content::Solids(_) => return Err(unknown("solids made of solids")),
             }
         }
         for inner in &group.places {

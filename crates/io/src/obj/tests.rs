@@ -17,7 +17,7 @@ fn error(text: &str) -> String {
 fn mesh(loaded: &Loaded, geometry: usize) -> Arc<Triangles> {
     match &loaded.scene.geometries[geometry].content {
         Content::Mesh(triangles) => Arc::clone(triangles),
-        Content::Shapes(_) => unreachable!("OBJ holds meshes"),
+        _ => unreachable!("OBJ holds meshes"),
     }
 }
 

@@ -48,6 +48,7 @@ fn is_same(a: &Geometry, b: &Geometry) -> bool {
         && match (&a.content, &b.content) {
             (Content::Mesh(a), Content::Mesh(b)) => Arc::ptr_eq(a, b),
             (Content::Shapes(a), Content::Shapes(b)) => Arc::ptr_eq(a, b),
+            (Content::Solids(a), Content::Solids(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
 }

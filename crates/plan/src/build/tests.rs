@@ -6,11 +6,14 @@ use nestray_core::moving::Keys;
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
-use nestray_scene::geometry::Geometry;
+use nestray_scene::geometry::{Content, Geometry};
 use nestray_scene::group::{Group, Motion, Place};
 use nestray_scene::scene::Scene;
+use nestray_scene::solid::{Operand, Solid};
 use nestray_scene::surfaces::Surfaces;
 use nestray_shapes::any::AnyShape;
+use nestray_shapes::block::Block;
+use nestray_shapes::csg::Operation;
 use nestray_shapes::shape::Sides;
 use nestray_shapes::sphere::Sphere;
 use nestray_shapes::triangle_mesh::Triangles;
@@ -50,7 +53,39 @@ fn spheres(rng: &mut Rng, name: &str, count: usize) -> Geometry {
     Geometry::shapes(name, 0, (0..count).map(sphere).collect::<Vec<AnyShape>>())
 }
 
-/// Everything there is: meshes large and tiny, shapes, one side only, instances in instances,
+/// Blocks without balls, pyramids with them.
+fn solids(rng: &mut Rng, name: &str, count: usize) -> Geometry {
+    let solid = |i: usize| {
+        let at = rng.point();
+        let ball = Operand::shape(Sphere { center: at, radius: 0.12 }).expect("closed");
+        let half = Vec3A::splat(0.1);
+        let (operation, other) = match i % 2 {
+            0 => (Operation::Union, Operand::mesh(Arc::new(pyramids(40)))),
+            _ => (Operation::Difference, Operand::shape(Block::between(-half, half))),
+        };
+        let turn = Quat::from_rotation_x(rng.next() * 6.0);
+        let place = Affine3A::from_rotation_translation(turn, at.into());
+        let other = other.and_then(|other| other.placed(place)).expect("closed");
+        Solid::new(operation, other, ball).expect("not deep")
+    };
+    Geometry::solids(name, 0, (0..count).map(solid).collect())
+}
+
+/// Two pyramids of many sides, foot on foot.
+fn pyramids(sides: u32) -> Triangles {
+    let corner = |i: u32| {
+        let (y, x) = (i as f32 * std::f32::consts::TAU / sides as f32).sin_cos();
+        [0.1 * x, 0.1 * y, 0.0]
+    };
+    let positions = (0..sides).map(corner).chain([[0.0, 0.0, 0.2], [0.0, 0.0, -0.2]]).collect();
+    let around = (0..sides).flat_map(|i| {
+        let next = (i + 1) % sides;
+        [[i, next, sides], [next, i, sides + 1]]
+    });
+    Triangles::new(positions, around.collect()).expect("sound")
+}
+
+/// Everything there is: meshes large and tiny, shapes, solids, one side only, instances in instances,
 /// one of them moving, one flat.
 fn scene() -> Scene {
     let mut rng = Rng(5);
@@ -59,6 +94,7 @@ fn scene() -> Scene {
     scene.add(mesh(&mut rng, "tiny", 3));
     scene.add(spheres(&mut rng, "balls", 20));
     scene.add(Geometry { sides: Sides::Front, ..mesh(&mut rng, "front", 30) });
+    scene.add(solids(&mut rng, "solids", 12));
     let inner = vec![scene.add_apart(mesh(&mut rng, "inner", 40))];
     let inner = Group { name: "inner".into(), geometries: inner, ..Group::default() };
     let inner = scene.add_group(inner);
@@ -72,7 +108,9 @@ fn scene() -> Scene {
         let motion = Motion::Still(turned(&mut rng));
         places.push(Place { name: String::new(), group: inner, motion });
     }
-    let geometries = vec![scene.add_apart(spheres(&mut rng, "dots", 10))];
+    let dots = scene.add_apart(spheres(&mut rng, "dots", 10));
+    let hollow = Geometry { sides: Sides::Back, ..solids(&mut rng, "hollow", 5) };
+    let geometries = vec![dots, scene.add_apart(hollow)];
     let outer = scene.add_group(Group { name: "outer".into(), geometries, places });
     for _ in 0..4 {
         scene.place(outer, Motion::Still(turned(&mut rng)));
@@ -127,6 +165,12 @@ fn every_plan_gives_the_same_answers() {
     let hits = list.iter().filter(|(hit, _)| hit.is_some()).count();
     let deep = list.iter().filter(|(hit, _)| hit.path.number() > 0).count();
     assert!(hits > 100 && deep > 30, "{hits} hits, {deep} in instances");
+    let solid = |hit: &Hit| {
+        let geometry = scene.geometries.get(hit.geometry as usize);
+        geometry.is_some_and(|geometry| matches!(geometry.content, Content::Solids(_)))
+    };
+    let solids = list.iter().filter(|(hit, _)| solid(hit)).count();
+    assert!(solids > 30, "{solids} hits of solids");
     for name in registry::names() {
         let plan = single(name, Map::new(), &scene).expect("known");
         if (registry::find(name).expect("known").objection)(

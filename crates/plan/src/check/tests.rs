@@ -8,6 +8,26 @@ use nestray_shapes::sphere::Sphere;
 use super::check;
 use crate::plan::{Node, Plan};
 
+#[test]
+fn scenes_whose_parts_do_not_fit_together_are_refused() {
+    let mut scene = garden();
+    let plan = crate::single::single("bvh", Default::default(), &scene).expect("known");
+    scene.groups[1].geometries.push(77);
+    let expected = "the scene: groups[1].geometries[1]: there is no geometry 77";
+    let told = [
+        check(&plan, &scene).err(),
+        crate::build::build(&plan, &scene).err(),
+        crate::single::single("bvh", Default::default(), &scene).err(),
+    ];
+    assert_eq!(
+        told.map(|error| error.map(|e| e.to_string())),
+        [(); 3].map(|()| Some(expected.into()))
+    );
+    scene.root = 9;
+    let told = check(&plan, &scene).expect_err("there is no world").to_string();
+    assert_eq!(told, "the scene: root: there is no group 9");
+}
+
 /// A world of ground, two leaves and three trees; a tree is a trunk, a leaf and a nut.
 fn garden() -> Scene {
     let sphere = |name: &str, x: f32| {
@@ -218,5 +238,5 @@ fn a_scene_that_holds_itself_is_refused() {
     let mut scene = Scene::new();
     scene.place(0, Motion::Keys(Keys::new(vec![(0.0, Affine3A::IDENTITY)]).expect("one key")));
     let error = check(&Plan::new(Node::nest("bvh", Vec::new())), &scene).expect_err("a cycle");
-    assert_eq!(error.to_string(), "the scene: group 0 stands in itself");
+    assert_eq!(error.to_string(), "the scene: groups: group 0 stands in itself");
 }

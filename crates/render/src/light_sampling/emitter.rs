@@ -81,6 +81,7 @@ impl Emitter {
                 Some(Outline::Triangle { corner: a, sides: [b - a, c - a], mirrored })
             }
             Content::Shapes(shapes) => outline_of(&shapes[self.primitive as usize], to),
+            Content::Solids(_) => None,
         }
     }
 

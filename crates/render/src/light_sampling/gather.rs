@@ -32,6 +32,9 @@ fn glows(scene: &Scene, geometry: &Geometry) -> bool {
         Content::Mesh(_) => material.glows(),
         // Coordinates on other shapes are known only where a ray meets them.
         Content::Shapes(_) => material.glows() && !textured,
+        // No place on what is left of a solid can be picked without looking for it: scattered
+        // rays find its light.
+        Content::Solids(_) => false,
     }
 }
 

@@ -7,6 +7,8 @@ use nestray_scene::geometry::Geometry;
 use nestray_scene::group::{Group, Motion};
 use nestray_scene::light::Light;
 use nestray_scene::material::{AlphaMode, Material};
+use nestray_scene::solid::{Operand, Solid};
+use nestray_shapes::csg::Operation;
 use nestray_shapes::triangle_mesh::Triangles;
 
 use super::*;
@@ -221,6 +223,50 @@ fn nasty_scenes_give_numbers() {
             assert!(all, "{integrator:?} {}", layer.name);
         }
     }
+}
+
+#[test]
+fn a_glowing_solid_gives_as_much_light_as_the_shape_it_is() {
+    let scene = |solid: bool| {
+        let mut scene = empty();
+        add(&mut scene, floor(-0.6, 3.0), chalk(0.8));
+        let lamp = scene.add_material(lamp(2.0));
+        let ball = sphere([0.0, 0.0, 0.2], 0.7);
+        if !solid {
+            scene.add(Geometry::shapes("", lamp, vec![ball.into()]));
+            return scene;
+        }
+        let (ball, around) = (Operand::shape(ball), Operand::shape(sphere([0.0; 3], 2.0)));
+        let both =
+            Solid::new(Operation::Intersection, ball.expect("closed"), around.expect("closed"));
+        scene.add(Geometry::solids("", lamp, vec![both.expect("not deep")]));
+        scene
+    };
+    for integrator in all() {
+        let seen = |solid| mean(&picture(&scene(solid), &quick(integrator, 256)).picture);
+        let (shape, solid) = (seen(false), seen(true));
+        assert!((shape - solid).abs() <= 0.02 * shape, "{integrator:?}: {shape} {solid}");
+    }
+}
+
+#[test]
+fn a_scene_whose_parts_do_not_fit_together_is_refused() {
+    let whole = varied();
+    let refused = |change: fn(&mut Scene), expected: &str| {
+        let mut scene = whole.clone();
+        change(&mut scene);
+        let error = render(&scene, &*world(&whole), &options(Integrator::Path), &Unwatched);
+        assert_eq!(error.expect_err(expected).to_string(), expected);
+    };
+    refused(
+        |scene| scene.geometries[1].material = 99,
+        "scene: geometries[1].material: there is no material 99",
+    );
+    refused(
+        |scene| scene.materials[0].base_texture = Some(3),
+        "scene: materials[0].base_texture: there is no texture 3",
+    );
+    refused(|scene| scene.root = 5, "scene: root: there is no group 5");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use nestray_shapes::any::AnyShape;
 use nestray_shapes::bezier::BezierPatch;
 use nestray_shapes::block::Block;
 use nestray_shapes::cone::Cone;
+use nestray_shapes::csg::Operation;
 use nestray_shapes::cylinder::Cylinder;
 use nestray_shapes::disk::Disk;
 use nestray_shapes::height_field::{HeightField, Relief};
@@ -24,9 +25,13 @@ use crate::geometry::Geometry;
 use crate::group::Group;
 use crate::material::Material;
 use crate::scene::Scene;
+use crate::solid::{Operand, Solid, SolidError};
 
 /// Kinds of bounded single shapes.
 const KINDS: u64 = 11;
+
+/// Solids made of solids.
+const SOLIDS: u64 = 2;
 
 /// Triangles of each mesh.
 const MESH: u64 = 12;
@@ -36,7 +41,7 @@ const APART: f64 = 10.0;
 
 /// Primitives of all copies, the plane and the height field, which is an instance.
 pub(super) fn count(size: u32) -> u64 {
-    (KINDS + MESH) * u64::from(size).pow(2) + 2
+    (KINDS + MESH + SOLIDS) * u64::from(size).pow(2) + 2
 }
 
 pub(super) fn build(size: u32) -> Scene {
@@ -63,11 +68,41 @@ pub(super) fn build(size: u32) -> Scene {
         mesh.cuboid(DAffine3::from_mat3_translation(turned, middle));
     }
     scene.add(Geometry::mesh("mesh", brick, mesh.finish()));
+    add_solids(&mut scene, &copies);
     add_ponds(&mut scene, &copies);
     let reach = APART * f64::from(size);
     let from = DVec3::new(-0.25, -0.95, 0.7) * reach;
     scene.cameras.push(camera("whole", from, DVec3::NEG_Y * 0.05 * reach, 44.0));
     scene
+}
+
+/// A frame and a lens that float above every copy.
+fn add_solids(scene: &mut Scene, copies: &[Vec3A]) {
+    let ball = |at: Vec3A, radius| Operand::shape(Sphere { center: at, radius });
+    let frame = |at: Vec3A| {
+        let half = Vec3A::splat(0.55);
+        let turned = DAffine3::from_mat3_translation(
+            rotation(DVec3::new(0.48, 0.6, 0.64), 0.9),
+            (at + Vec3A::new(-2.2, 1.0, 3.0)).as_dvec3(),
+        );
+        let block = Operand::shape(Block::between(-half, half))?;
+        let frame = Solid::new(Operation::Difference, block, ball(Vec3A::ZERO, 0.7)?)?;
+        // With a ball inside.
+        let frame = Operand::from(frame).placed(turned.as_affine3a())?;
+        let inside = ball(turned.translation.as_vec3a(), 0.3)?;
+        Solid::new(Operation::Union, frame, inside)
+    };
+    let lens = |at: Vec3A| {
+        let (at, apart) = (at + Vec3A::new(2.2, 1.0, 3.0), Vec3A::new(0.2, -0.7, 0.25));
+        Solid::new(Operation::Intersection, ball(at - apart, 1.0)?, ball(at + apart, 1.0)?)
+    };
+    let brass = scene.add_material(metal("frame", [0.8, 0.6, 0.25], 0.2));
+    let clear = scene.add_material(glass("lens", [1.0; 3]));
+    let solids = |make: &dyn Fn(Vec3A) -> Result<Solid, SolidError>| {
+        copies.iter().map(|&at| make(at).expect("these are closed")).collect()
+    };
+    scene.add(Geometry::solids("frame", brass, solids(&frame)));
+    scene.add(Geometry::solids("lens", clear, solids(&lens)));
 }
 
 /// A height field behind the other shapes of every copy; heights are above y = 0, so it is

@@ -31,7 +31,9 @@ impl Operation {
         }
     }
 
-    pub(super) fn bounds(self, left: Aabb, right: Aabb) -> Aabb {
+    /// A box around the whole, from those of the operands.
+    #[must_use]
+    pub fn bounds(self, left: Aabb, right: Aabb) -> Aabb {
         let met = match self {
             Self::Union if left.is_empty() => right,
             Self::Union if right.is_empty() => left,

@@ -11,11 +11,13 @@ use nestray_scene::geometry::Geometry;
 use nestray_scene::group::{Group, Motion, Place};
 use nestray_scene::light::{Background, Light, LightKind};
 use nestray_scene::material::{AlphaMode, Material, Whitted};
+use nestray_scene::solid::{Operand, Solid};
 use nestray_scene::texture::{Image, Pixels, Texture, Wrap};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::bezier::BezierPatch;
 use nestray_shapes::block::Block;
 use nestray_shapes::cone::Cone;
+use nestray_shapes::csg::Operation;
 use nestray_shapes::cylinder::Cylinder;
 use nestray_shapes::disk::Disk;
 use nestray_shapes::height_field::{HeightField, Relief};
@@ -123,6 +125,28 @@ fn motions() -> Vec<Motion> {
     ]
 }
 
+/// A solid of every operation and every kind of operand.
+fn solid() -> Solid {
+    let ball = || Operand::shape(Sphere { center: vec3a(0.1, 0.2, 0.3), radius: 0.7 });
+    let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let mesh = Triangles::new(corners, faces).expect("sound");
+    let solid = |operation, left: Operand, right: Operand| {
+        Solid::new(operation, left, right).expect("not deep")
+    };
+    let place = Affine3A::from_scale_rotation_translation(
+        Vec3::new(1.0, -2.0, 0.1),
+        Quat::from_rotation_y(0.7),
+        Vec3::X,
+    );
+    let placed = |operand: Operand| operand.placed(place).expect("not flat");
+    let both =
+        solid(Operation::Intersection, ball().expect("closed"), placed(ball().expect("closed")));
+    let either =
+        solid(Operation::Union, Operand::mesh(Arc::new(mesh)).expect("closed"), both.into());
+    solid(Operation::Difference, ball().expect("closed"), placed(either.into()))
+}
+
 pub(super) fn everything() -> Scene {
     let mut scene = Scene::new();
     scene.materials = materials();
@@ -135,7 +159,9 @@ pub(super) fn everything() -> Scene {
     scene.add(Geometry::mesh("mesh", 1, mesh.expect("sound")));
     let shapes = Geometry { sides: Sides::Back, ..Geometry::shapes("shapes", 2, shapes()) };
     let number = scene.add_apart(shapes);
-    let inner = Group { name: "inner".into(), geometries: vec![number], places: Vec::new() };
+    let solids = scene.add_apart(Geometry::solids("solids", 0, vec![solid(), solid()]));
+    let geometries = vec![number, solids];
+    let inner = Group { name: "inner".into(), geometries, places: Vec::new() };
     let inner = scene.add_group(inner);
     for (i, motion) in motions().into_iter().enumerate() {
         let place = Place { name: format!("place {i}"), group: inner, motion };

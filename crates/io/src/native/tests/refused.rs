@@ -30,7 +30,7 @@ fn errors_of_sense_have_a_path() {
         ),
         (r#""groups":[{"geometries":[0]}]"#, "groups[0].geometries[0]: there is no geometry 0"),
         (r#""root":1"#, "root: there is no group 1"),
-        (r#""geometries":[{}]"#, "geometries[0]: it needs one of mesh, shapes and file"),
+        (r#""geometries":[{}]"#, "geometries[0]: it needs one of mesh, shapes, solids and file"),
         (
             r#""geometries":[{"mesh":{"positions":[],"faces":[[0,1,2]]}}]"#,
             "geometries[0].mesh: face 0 names vertex 0, but there are 0",
@@ -73,6 +73,60 @@ fn errors_of_sense_have_a_path() {
     ] {
         let found = message(fields);
         assert!(found.starts_with(expected), "{found}\n{expected}");
+    }
+}
+
+#[test]
+fn solids_that_are_none_are_refused_by_path() {
+    let ball = r#"{"shape":{"sphere":{"center":[0,0,0],"radius":1}}}"#;
+    let message = |operand: &str| {
+        let solids =
+            format!(r#"[{{"union":[{ball},{ball}]}},{{"difference":[{ball},{operand}]}}]"#);
+        message(&format!(r#""geometries":[{{"solids":{solids}}}]"#))
+    };
+    let mesh = |faces| {
+        let positions = "[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]";
+        format!(r#"{{"mesh":{{"positions":{positions},"faces":{faces}}}}}"#)
+    };
+    let flat = r#""at":{"scale":[1,0,1]}"#;
+    for (operand, expected) in [
+        ("{}", "[1]: it needs one of shape, mesh and solid"),
+        (
+            r#"{"shape":{"disk":{"center":[0,0,0],"normal":[0,0,1],"radius":1}}}"#,
+            "[1].shape: a disk has no inside",
+        ),
+        (&mesh("[[0,2,1],[0,1,3],[0,3,2]]"), "[1].mesh: the mesh is open at the edge from "),
+        (&mesh("[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]"), "[1].mesh: the mesh is inside out"),
+        (&mesh("[[0,1,9]]"), "[1].mesh: face 0 names vertex 9"),
+        (
+            &format!(r#"{{"solid":{{"union":[{ball},{{{flat}}}]}}}}"#),
+            "[1].solid.union[1]: it needs one of",
+        ),
+        (&ball.replace("}}}", &format!("}}}},{flat}}}")), "[1].at: the place is flat"),
+    ] {
+        let found = message(operand);
+        assert!(
+            found.starts_with(&format!("geometries[0].solids[1].difference{expected}")),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn solids_within_each_other_too_deep_are_refused() {
+    let ball = r#"{"shape":{"sphere":{"center":[0,0,0],"radius":1}}}"#;
+    let nested = |depth: usize| {
+        let (open, close) =
+            (r#"{"solid":{"union":["#.repeat(depth), format!(",{ball}]}}}}").repeat(depth));
+        let operand = format!("{open}{ball}{close}");
+        format!(r#""geometries":[{{"solids":[{{"union":[{operand},{ball}]}}]}}]"#)
+    };
+    let read = |depth| alone(&format!("{{\"nestray_scene\": 1,\n{}}}", nested(depth)));
+    read(31).expect("not too deep");
+    assert!(message(&nested(32)).ends_with(": solids within each other more than 32 deep"));
+    for depth in [60, 100_000] {
+        let found = message(&nested(depth));
+        assert!(found.contains("recursion limit exceeded"), "{found}");
     }
 }
 

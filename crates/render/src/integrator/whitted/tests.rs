@@ -40,6 +40,21 @@ fn a_mirror_shows_what_is_before_it() {
 }
 
 #[test]
+fn what_glows_is_seen_glowing_itself_and_in_mirrors_but_lights_nothing() {
+    let mut scene = empty();
+    let at = add(&mut scene, floor(0.0, 50.0), lamp(0.25));
+    assert!((middle(&scene) - 0.25).abs() < 1e-6, "{}", middle(&scene));
+    // The same behind the eye, and a mirror before it.
+    let mirror = Material::from_nff([0.0; 3], 0.0, 0.6, 1.0, 0.0, 1.0);
+    add(&mut scene, floor(-1.0, 50.0), mirror);
+    let square = nestray_shapes::any::AnyShape::from(floor(9.0, 50.0));
+    scene.geometries[at] = nestray_scene::geometry::Geometry::shapes("", 0, vec![square]);
+    assert!((middle(&scene) - 0.15).abs() < 1e-6, "{}", middle(&scene));
+    scene.materials[1] = Material::from_nff([1.0; 3], 0.9, 0.0, 1.0, 0.0, 1.0);
+    assert_eq!(middle(&scene), 0.0);
+}
+
+#[test]
 fn glass_of_index_one_is_not_there() {
     let glass =
         Material { transmission: 1.0, ior: 1.0, base_color: [1.0; 3], ..Material::default() };
