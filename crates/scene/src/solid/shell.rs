@@ -10,7 +10,7 @@ use nestray_core::scratch::Scratch;
 use nestray_core::surface::Surface;
 use nestray_shapes::triangle_mesh::TriangleMesh;
 
-/// Triangles in runs of [`RUN`], each with a box: enough to look up the surface of a hit that
+/// Triangles in runs of neighbours, each with a box: enough to look up the surface of a hit that
 /// some technique has found, by the same arithmetic.
 #[derive(Clone, Debug)]
 pub struct Shell {
