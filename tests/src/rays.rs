@@ -14,7 +14,39 @@ use crate::numbers::Numbers;
 #[must_use]
 pub fn hard(seed: u64, bounds: Aabb, aims: &[Vec3A], count: usize) -> Vec<Ray> {
     let mut numbers = Numbers::new(seed);
-    (0..count).map(|_| ray(&mut numbers, bounds, aims)).collect()
+    let mut rays = Vec::with_capacity(count);
+    while rays.len() < count {
+        let first = ray(&mut numbers, bounds, aims);
+        if numbers.once_in(60) {
+            rays.extend(neighbours(&mut numbers, &first, bounds, aims));
+        } else {
+            rays.push(first);
+        }
+    }
+    rays.truncate(count);
+    rays
+}
+
+/// Rays as through neighbouring pixels: from one point or from a lens, a little apart, some
+/// of them at points exactly.
+fn neighbours(numbers: &mut Numbers, first: &Ray, bounds: Aabb, aims: &[Vec3A]) -> Vec<Ray> {
+    let apart = *numbers.pick(&[0.0, 1e-4, 1e-3, 0.01, 0.03]) * first.dir().abs().max_element();
+    let lens = *numbers.pick(&[0.0, 0.0, 1e-3]) * bounds.size().max_element();
+    let mut rays = Vec::new();
+    for _ in 0..4 + numbers.below(40) {
+        let origin = first.origin() + (numbers.point() - 0.5) * lens;
+        let mut dir = first.dir() + (numbers.point() - 0.5) * apart;
+        if !aims.is_empty() && numbers.once_in(3) {
+            // The nearest direction of a few that meets a point exactly.
+            let off = |aim: Vec3A| (aim - origin).normalize_or_zero().dot(dir.normalize_or_zero());
+            let tries: Vec<Vec3A> = (0..8).map(|_| *numbers.pick(aims)).collect();
+            let best = tries.into_iter().max_by(|a, b| off(*a).total_cmp(&off(*b)));
+            dir = best.map_or(dir, |aim| (aim - origin) * (dir.length() / (aim - origin).length()));
+        }
+        let ray = Ray::new(origin, dir, first.kind()).at_time(first.time());
+        rays.push(ray.between(first.t_min(), first.t_max()));
+    }
+    rays
 }
 
 /// The rays that follow: from where each of `first` hits `world`, along the surface, away from

@@ -16,6 +16,8 @@ pub mod aabb;
 
 pub mod beam;
 
+pub mod bundle;
+
 pub mod object;
 
 pub mod children;

@@ -7,6 +7,7 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::bundle::{Bundle, Entrance};
 use crate::family::Family;
 use crate::ray::Ray;
 use crate::simd::Simd;
@@ -38,6 +39,9 @@ pub trait Technique: Debug + Send + Sync + Sized + 'static {
     /// [`listed`]: Self::listed
     const LISTS: bool = false;
 
+    /// Whether it can look up where a whole bundle of rays starts ([`gather`](Self::gather)).
+    const GATHERS: bool = false;
+
     /// Its settings; `Default` is what the literature recommends.
     type Params: Params;
 
@@ -67,6 +71,31 @@ pub trait Technique: Debug + Send + Sync + Sized + 'static {
 
     /// Places a ray at the beginning.
     fn start<S: Simd>(&self, simd: S, walk: &mut Walk<'_>, limit: f32) -> (Self::Cursor, Step);
+
+    /// Looks up where the rays of a bundle start. False if the technique cannot, or it is not
+    /// worth it: then they [`start`](Self::start) as any ray does.
+    #[inline(always)]
+    fn gather<S: Simd>(
+        &self,
+        _simd: S,
+        _bundle: &Bundle,
+        _trail: &mut Trail,
+        _entrance: &mut Entrance,
+    ) -> bool {
+        false
+    }
+
+    /// Places a ray of a bundle that was [`gather`](Self::gather)ed at the beginning.
+    #[inline(always)]
+    fn start_at<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        limit: f32,
+        _entrance: &Entrance,
+    ) -> (Self::Cursor, Step) {
+        self.start(simd, walk, limit)
+    }
 
     /// Moves a ray that stands at the node or cell `at` by one. It may be shown any leaf that
     /// begins within `[ray.t_min, limit]`, and must be shown all of them in the end; one that

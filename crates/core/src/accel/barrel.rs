@@ -7,6 +7,7 @@
 
 use crate::accel::Accel;
 use crate::accel::leaf::This;
+use crate::bundle::{self, Bundle, Entrance};
 use crate::children::Children;
 use crate::hit::Hit;
 use crate::mailbox::Stamp;
@@ -87,6 +88,16 @@ struct InFlight<Cursor, Probe> {
     lists: Lists,
     /// The next ray to let in.
     next: usize,
+    bundle: Bundled,
+}
+
+/// The bundle that the next ray belongs to.
+struct Bundled {
+    /// The first ray behind it.
+    end: usize,
+    /// Where its rays start, if they do not start as any ray.
+    gathered: bool,
+    entrance: Entrance,
 }
 
 /// Where answers go: hits, or whether something is hit.
@@ -108,7 +119,27 @@ impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
             lists.free.push_if(slot as u32, true);
         }
         let trails = [const { Trail::new() }; RAYS];
-        Self { slots: [empty; RAYS], trails, lists, next: 0 }
+        let bundle = Bundled { end: 0, gathered: false, entrance: Entrance::EMPTY };
+        Self { slots: [empty; RAYS], trails, lists, next: 0, bundle }
+    }
+}
+
+impl Bundled {
+    /// Makes a bundle of the first of `rest`, which begins with ray `first`.
+    #[inline(always)]
+    fn open<S: Simd, T: Technique>(
+        &mut self,
+        simd: S,
+        index: &T,
+        rest: &[Ray],
+        first: usize,
+        trail: &mut Trail,
+    ) {
+        let rays = &rest[..rest.len().min(bundle::RAYS)];
+        self.end = first + rays.len();
+        self.gathered = T::GATHERS
+            && Bundle::of(rays)
+                .is_some_and(|bundle| index.gather(simd, &bundle, trail, &mut self.entrance));
     }
 }
 
@@ -151,21 +182,32 @@ impl<T: Technique, C: Children> Accel<T, C> {
         (hits, blocked): &Answers<'_>,
         (flight, scratch): (&mut InFlight<T::Cursor, C::Probe>, &mut Scratch),
     ) {
-        let InFlight { slots, trails, lists, next } = flight;
+        let InFlight { slots, trails, lists, next, bundle } = flight;
         for i in 0..lists.free.drain() {
             let id = lists.free.get(i);
             let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
             scratch.mailbox.close(slot.stamp);
             slot.stamp = Stamp::NONE;
-            if ANY {
-                while *next < rays.len() && blocked[*next] {
+            loop {
+                while ANY && *next < rays.len() && blocked[*next] {
                     *next += 1;
+                }
+                if *next < bundle.end || *next >= rays.len() {
+                    break;
+                }
+                bundle.open(simd, index, &rays[*next..], *next, trail);
+                if bundle.gathered && bundle.entrance.count() == 0 {
+                    *next = bundle.end;
                 }
             }
             let Some(ray) = rays.get(*next) else { continue };
             slot.limit = if ANY { ray.t_max() } else { hits[*next].t };
             let mut walk = Walk { ray, trail, family: &self.members };
-            (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
+            (slot.cursor, slot.at) = if bundle.gathered {
+                index.start_at::<S, Asks<ANY, true>>(simd, &mut walk, slot.limit, &bundle.entrance)
+            } else {
+                index.start(simd, &mut walk, slot.limit)
+            };
             slot.probe = self.members.children.probe(ray);
             slot.ray = *next as u32;
             *next += 1;

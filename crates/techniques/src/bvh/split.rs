@@ -2,6 +2,7 @@
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
+use rayon::prelude::*;
 
 use super::build::Children;
 
@@ -21,22 +22,28 @@ impl Plane {
     }
 }
 
+/// More children than this are worth being shared out between threads.
+pub(super) const SHARED: usize = 16_384;
+
 /// The plane with the least `area × Σ weights` on both sides, if any separates.
-#[inline(never)] // its tables must not lie on the stack of every level
 pub(super) fn best_plane(most_bins: usize, of: &Children, children: &[u32]) -> Option<Plane> {
-    const MOST: usize = 64;
-    let bins = if children.len() < 64 { 16 } else { most_bins.clamp(2, MOST) };
-    let centers = children.iter().fold(Aabb::EMPTY, |all, &c| all.with(of.center(c)));
+    match children.len() {
+        ..16 => best_of::<8>(8, of, children),
+        16..128 => best_of::<16>(16, of, children),
+        _ => best_of::<64>(most_bins.clamp(2, 64), of, children),
+    }
+}
+
+/// The best of `bins` planes along each axis.
+#[inline(never)] // its tables must not lie on the stack of every level
+fn best_of<const MOST: usize>(bins: usize, of: &Children, children: &[u32]) -> Option<Plane> {
+    let centers = centers(of, children);
     let size = centers.size();
     let scale = Vec3A::splat(bins as f32 * 0.9999) / size.max(Vec3A::splat(f32::MIN_POSITIVE));
-    let mut filled = [[Bin::EMPTY; MOST]; 3];
-    for &child in children {
-        let at = (of.center(child) - centers.min) * scale;
-        for axis in 0..3 {
-            filled[axis][(at[axis] as usize).min(bins - 1)]
-                .put(of.boxes[child as usize], of.weights[child as usize]);
-        }
-    }
+    let filled = filled::<MOST>(of, children, &|center| {
+        let at = (center - centers.min) * scale;
+        [at.x, at.y, at.z].map(|at| (at as usize).min(bins - 1))
+    });
     let mut best: Option<(f32, Plane)> = None;
     for axis in (0..3).filter(|&axis| size[axis] > 0.0) {
         let mut right = [0.0; MOST];
@@ -59,6 +66,50 @@ pub(super) fn best_plane(most_bins: usize, of: &Children, children: &[u32]) -> O
         }
     }
     best.map(|(_, plane)| plane)
+}
+
+/// A box around the centres.
+fn centers(of: &Children, children: &[u32]) -> Aabb {
+    let around = |part: &[u32]| part.iter().fold(Aabb::EMPTY, |all, &c| all.with(of.center(c)));
+    if children.len() <= SHARED {
+        return around(children);
+    }
+    children.par_chunks(SHARED).map(around).reduce(|| Aabb::EMPTY, Aabb::join)
+}
+
+type Bins<const MOST: usize> = [[Bin; MOST]; 3];
+
+/// The bins of all children. Parts are added up in order: the same for any number of threads.
+fn filled<const MOST: usize>(
+    of: &Children,
+    children: &[u32],
+    place: &(impl Fn(Vec3A) -> [usize; 3] + Sync),
+) -> Bins<MOST> {
+    let fill = |bins: &mut Bins<MOST>, part: &[u32]| {
+        for &child in part {
+            let (bounds, weight) = (of.boxes[child as usize], of.weights[child as usize]);
+            for (bins, bin) in bins.iter_mut().zip(place(of.center(child))) {
+                bins[bin].put(bounds, weight);
+            }
+        }
+    };
+    let mut all = [[Bin::EMPTY; MOST]; 3];
+    if children.len() <= SHARED {
+        fill(&mut all, children);
+        return all;
+    }
+    let part = |part: &[u32]| {
+        let mut bins = Box::new([[Bin::EMPTY; MOST]; 3]);
+        fill(&mut bins, part);
+        bins
+    };
+    let parts: Vec<Box<Bins<MOST>>> = children.par_chunks(SHARED).map(part).collect();
+    for part in parts {
+        for (all, part) in all.as_flattened_mut().iter_mut().zip(part.as_flattened()) {
+            all.join(part);
+        }
+    }
+    all
 }
 
 /// The children whose centres fall between two candidate planes.
