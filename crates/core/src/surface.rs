@@ -16,6 +16,9 @@ pub struct Surface {
     pub shading: Vec3A,
     /// Unit direction along which `uv[0]` grows, for normal maps; zero if unknown.
     pub tangent: Vec3A,
+    /// Whether a picture on it is seen in a mirror from the front: `uv[1]`, which runs down a
+    /// picture, then grows along `normal × tangent`, else against it.
+    pub mirrored: bool,
     /// Texture coordinates.
     pub uv: [f32; 2],
 }
@@ -31,6 +34,7 @@ impl Surface {
             normal,
             shading: normal,
             tangent: Vec3A::ZERO,
+            mirrored: false,
             uv: [0.0; 2],
         }
     }
@@ -59,6 +63,7 @@ impl Surface {
             normal: cofactor(self.normal),
             shading: cofactor(self.shading),
             tangent: unit_or(m * self.tangent, Vec3A::ZERO),
+            mirrored: self.mirrored != (mirror < 0.0),
             uv: self.uv,
         }
     }
@@ -99,6 +104,8 @@ mod tests {
         let mirrored = surface.transformed(&Affine3A::from_scale(glam::Vec3::new(-2.0, 1.0, 1.0)));
         assert_eq!(mirrored.normal, Vec3A::NEG_X);
         assert_eq!(mirrored.position.x, -2.0);
+        assert!(mirrored.mirrored, "pictures on it, too, are seen in a mirror");
+        assert!(!surface.transformed(&Affine3A::from_rotation_y(1.0)).mirrored);
     }
 
     #[test]

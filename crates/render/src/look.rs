@@ -97,7 +97,7 @@ fn normal(scene: &Scene, material: &Material, point: &Point) -> Vec3A {
         return smooth;
     }
     // Texture coordinates count rows downwards; green points up.
-    let up = smooth.cross(along);
+    let up = if surface.mirrored { along.cross(smooth) } else { smooth.cross(along) };
     let [r, g, b, _] = scene.textures[texture].sample(surface.uv);
     let (x, y) = ((2.0 * r - 1.0) * material.normal_scale, (2.0 * g - 1.0) * material.normal_scale);
     (along * x + up * y + smooth * (2.0 * b - 1.0)).normalize_or(smooth)
@@ -106,4 +106,39 @@ fn normal(scene: &Scene, material: &Material, point: &Point) -> Vec3A {
 /// Within 0 and 1; 0 if it is no number.
 fn unit(x: f32) -> f32 {
     if x > 0.0 { x.min(1.0) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use nestray_core::surface::Surface;
+    use nestray_scene::texture::{Image, Pixels, Texture};
+    use nestray_shapes::triangle_mesh::Triangles;
+
+    use super::*;
+
+    /// The shading normal of a square that faces +z, under a map that leans to the upper
+    /// edge of its picture; `left` and `right` are the first coordinates of its sides.
+    fn leaning(left: f32, right: f32) -> Vec3A {
+        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let square = Triangles::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("sound");
+        let uvs = vec![[left, 1.0], [right, 1.0], [right, 0.0], [left, 0.0]];
+        let square = square.with_uvs(uvs).expect("one each");
+        let up = Pixels::Linear(vec![[128, 230, 200, 255]]);
+        let mut scene = Scene::new();
+        scene.textures.push(Texture::new("", Arc::new(Image { width: 1, height: 1, pixels: up })));
+        let material = Material { normal_texture: Some(0), ..Material::default() };
+        let surface: Surface = square.surface(1, [0.3, 0.3]);
+        let point = Point { surface, material: 0, color: [1.0; 4] };
+        normal(&scene, &material, &point)
+    }
+
+    #[test]
+    fn a_bump_stays_a_bump_where_the_picture_is_mirrored() {
+        for (left, right) in [(0.0, 1.0), (1.0, 0.0)] {
+            let found = leaning(left, right);
+            assert!(found.y > 0.5 && found.x.abs() < 0.01 && found.z > 0.5, "{found}");
+        }
+    }
 }

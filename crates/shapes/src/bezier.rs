@@ -97,6 +97,7 @@ impl Shape for BezierPatch {
         let (normal, tangent) = Place::normal(&self.points, uv).unwrap_or((DVec3::Z, DVec3::X));
         Surface {
             tangent: tangent.as_vec3a(),
+            mirrored: true,
             uv: crossing.uv,
             ..Surface::new(place.point.as_vec3a(), normal.as_vec3a())
         }

@@ -148,6 +148,7 @@ impl Shape for Block {
         Surface {
             error: min.abs().max(max.abs()) * f32::EPSILON,
             tangent: tangent.as_vec3a(),
+            mirrored: true,
             uv: [u as f32, part(last) as f32],
             ..Surface::new(position, normal)
         }

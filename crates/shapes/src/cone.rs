@@ -172,6 +172,7 @@ impl Shape for Cone {
             // The roots of the next ray are off by far less, but not by nothing.
             error: surface.error + size * (f32::EPSILON / 2.0),
             tangent: unit.cross(side).as_vec3a(),
+            mirrored: true,
             uv: [(if turn < 0.0 { turn + 1.0 } else { turn }) as f32, z as f32],
             ..surface
         }

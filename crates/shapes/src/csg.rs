@@ -207,7 +207,8 @@ impl<L: Object, R: Object> Object for Csg<L, R> {
         if !turned {
             return Some(surface);
         }
-        Some(Surface { normal: -surface.normal, shading: -surface.shading, ..surface })
+        let (normal, shading) = (-surface.normal, -surface.shading);
+        Some(Surface { normal, shading, mirrored: !surface.mirrored, ..surface })
     }
 
     fn holds(&self, source: &Source) -> bool {

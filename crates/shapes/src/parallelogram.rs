@@ -129,6 +129,7 @@ impl Shape for Parallelogram {
         Surface {
             error: flat_error(farthest),
             tangent: u.normalize_or_zero().as_vec3a(),
+            mirrored: true,
             uv: crossing.uv,
             ..Surface::new((corner + u * s + v * t).as_vec3a(), normal.as_vec3a())
         }

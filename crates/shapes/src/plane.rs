@@ -100,6 +100,7 @@ impl Shape for Plane {
         Surface {
             error: flat_error(position.abs().max(middle.abs())),
             tangent: x.as_vec3a(),
+            mirrored: true,
             uv: [from.dot(x) as f32, from.dot(y) as f32],
             ..Surface::new(position.as_vec3a(), normal.as_vec3a())
         }

@@ -169,6 +169,7 @@ impl Shape for Polygon {
         Surface {
             error: flat_error(farthest),
             tangent: self.frame()[0].as_vec3a(),
+            mirrored: true,
             uv: self.uv(point),
             ..Surface::new(point.as_vec3a(), self.normal.as_vec3a())
         }

@@ -202,6 +202,8 @@ impl Shape for Quadric {
             // The roots of the next ray are off by far less, but not by nothing.
             error: surface.error + reach * (f32::EPSILON / 2.0),
             tangent: (around - normal * around.dot(normal)).normalize_or_zero().as_vec3a(),
+            // Normals may point to the center.
+            mirrored: normal.dot(from) < 0.0,
             uv: [(if turn < 0.0 { turn + 1.0 } else { turn }) as f32, fall as f32],
             ..surface
         }

@@ -169,6 +169,7 @@ impl Shape for Torus {
             // The roots of the next ray are off by far less, but not by nothing.
             error: surface.error + (self.major + self.minor) * (f32::EPSILON / 2.0),
             tangent: tangent.as_vec3a(),
+            mirrored: true,
             uv: [around, tube],
             ..surface
         }

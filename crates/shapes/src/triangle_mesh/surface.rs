@@ -28,10 +28,12 @@ impl Triangles {
         };
         // As far as a neighbour in the same plane may seem off by its own arithmetic.
         let farthest = [a, b, c].iter().fold(DVec3::ZERO, |far, p| far.max(p.abs()));
+        let (tangent, mirrored) = self.tangent(face, [a, b, c]);
         Surface {
             error: farthest.as_vec3a() * (4.0 * f32::EPSILON),
             shading: self.shading(face, weights, normal),
-            tangent: self.tangent(face, [a, b, c]),
+            tangent,
+            mirrored,
             uv,
             ..Surface::new(position, normal)
         }
@@ -56,16 +58,18 @@ impl Triangles {
         if smooth.dot(normal) < 0.0 { -smooth } else { smooth }
     }
 
-    /// Along which way the first texture coordinate grows.
-    fn tangent(&self, face: [u32; 3], [a, b, c]: [DVec3; 3]) -> Vec3A {
+    /// Along which way the first texture coordinate grows, and whether a picture is seen in a
+    /// mirror.
+    fn tangent(&self, face: [u32; 3], [a, b, c]: [DVec3; 3]) -> (Vec3A, bool) {
         if self.uvs.is_empty() {
-            return (b - a).normalize_or_zero().as_vec3a();
+            return ((b - a).normalize_or_zero().as_vec3a(), true);
         }
         let [p, q, r] = face.map(|i| Vec2::from(self.uvs[i as usize]).as_dvec2());
         let (q, r) = (q - p, r - p);
         let turned = (b - a) * r.y - (c - a) * q.y;
-        let side = if q.perp_dot(r) < 0.0 { -1.0 } else { 1.0 };
-        (turned * side).normalize_or_zero().as_vec3a()
+        let mirrored = q.perp_dot(r) > 0.0;
+        let side = if mirrored { 1.0 } else { -1.0 };
+        ((turned * side).normalize_or_zero().as_vec3a(), mirrored)
     }
 }
 

@@ -193,3 +193,38 @@ fn agree(object: &impl Object, ray: &Ray, what: &str) {
         assert!(surface.position.is_finite() && surface.normal.is_finite(), "{what}");
     }
 }
+
+#[test]
+fn pictures_lie_as_tangents_say() {
+    let mut told = std::collections::BTreeMap::<&str, [u32; 2]>::new();
+    each_crossing(400, |_, sample, ray, crossing| {
+        let surface = sample.shape.surface(ray, crossing);
+        if surface.tangent == Vec3A::ZERO || surface.shading != surface.normal {
+            return;
+        }
+        let step = 1e-3 * sample.size as f32;
+        let up = surface.normal.cross(surface.tangent);
+        let up = if surface.mirrored { -up } else { up };
+        // What lies a little further, seen straight down.
+        let beside = |along: Vec3A| {
+            let from = surface.position + along * step + surface.normal * (2.0 * step);
+            let down = Ray::new(from, -surface.normal, RayKind::Camera).between(0.0, 4.0 * step);
+            let found = crossings(&sample.shape, &down);
+            let found = found.first().map(|crossing| sample.shape.surface(&down, crossing))?;
+            // Not of the next face of a mountain.
+            (found.normal.dot(surface.normal) > 0.99).then_some(found.uv)
+        };
+        let (Some(right), Some(above)) = (beside(surface.tangent), beside(up)) else { return };
+        let (across, down) = (right[0] - surface.uv[0], above[1] - surface.uv[1]);
+        // Not over a seam, nor where a hit is told badly.
+        if !(1e-5..0.4).contains(&across.abs()) || !(1e-5..0.4).contains(&down.abs()) {
+            return;
+        }
+        let count = told.entry(sample.shape.kind()).or_default();
+        count[usize::from(across > 0.0 && down < 0.0)] += 1;
+    });
+    for (kind, [wrong, right]) in told {
+        // At edges, poles and steep slopes the neighbour may be of another face.
+        assert!(wrong * 6 <= right, "{kind}: {wrong} wrong, {right} right");
+    }
+}
