@@ -41,8 +41,9 @@ pub(crate) fn begins(bytes: &[u8]) -> bool {
 
 /// Reads a scene: what follows a fill is one geometry, in the order of the file. Shapes are
 /// seen from the front only, or, if their radius is negative, from the back only, unless they
-/// let light through. Lights without a colour are `√n / 2n` bright, as is the ambient light,
-/// if there are `n` of them; none gets weaker with distance.
+/// let light through. Lights without a colour are `1 / √n` bright, if there are `n` of them,
+/// and there is no ambient light: so the published pictures were made. None gets weaker with
+/// distance.
 ///
 /// # Errors
 /// If a statement makes no sense, or the bytes end within one.
@@ -220,11 +221,7 @@ impl Reader<'_> {
 
     fn finish(mut self, source: &Source) -> Loaded {
         self.end_geometry();
-        let count = self.lights.len() as f32;
-        let usual = [count.sqrt() / (2.0 * count); 3];
-        if count > 0.0 {
-            self.scene.ambient = usual;
-        }
+        let usual = [1.0 / (self.lights.len() as f32).sqrt(); 3];
         for (position, color) in self.lights {
             let kind = LightKind::Point { position, fades: false };
             let color = color.unwrap_or(usual);

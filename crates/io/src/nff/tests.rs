@@ -40,10 +40,10 @@ fn every_statement_is_read() {
     let camera = &scene.cameras[0];
     assert_eq!((camera.from, camera.up), (Vec3A::new(1.0, 2.0, 3.0), Vec3A::Z));
     assert_eq!((camera.hither, camera.resolution), (1.0, Some([64, 32])));
-    let usual = 2f32.sqrt() / 4.0;
+    let usual = 1.0 / 2f32.sqrt();
     assert_eq!(scene.lights[0].color, [usual; 3]);
     assert_eq!(scene.lights[1].color, [0.25, 0.5, 1.0]);
-    assert_eq!(scene.ambient, [usual; 3]);
+    assert_eq!(scene.ambient, [0.0; 3]);
     let seen: Vec<(Sides, u32)> =
         scene.geometries.iter().map(|g| (g.sides, g.primitives())).collect();
     assert_eq!(seen, [(Sides::Front, 1), (Sides::Back, 1), (Sides::Front, 3), (Sides::Both, 2)]);

@@ -87,8 +87,7 @@ impl<W: Write> Writer<'_, W> {
     }
 
     fn lights(&mut self) -> Result<(), NffError> {
-        let count = self.scene.lights.len() as f32;
-        let usual = [count.sqrt() / (2.0 * count); 3];
+        let usual = [1.0 / (self.scene.lights.len() as f32).sqrt(); 3];
         for light in &self.scene.lights {
             let LightKind::Point { position, fades: false } = light.kind else {
                 return Err(unknown("lights other than points that do not get weaker"));

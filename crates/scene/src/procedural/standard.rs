@@ -81,14 +81,13 @@ impl Fill {
 }
 
 impl Standard {
-    /// Nothing but an eye, lights, and the sky. The lights together are as bright as half
-    /// the root of their number.
+    /// Nothing but an eye, lights, and the sky. The lights together are as bright as the root
+    /// of their number, and nothing shines from everywhere: so the published pictures were
+    /// made.
     pub(super) fn new(sky: [f32; 3], eye: &Eye, lights: &[[f64; 3]]) -> Self {
         let mut scene = Scene::new();
-        let count = lights.len() as f32;
-        let color = [count.sqrt() / (2.0 * count); 3];
+        let color = [1.0 / (lights.len() as f32).sqrt(); 3];
         scene.background = Background::Color(sky);
-        scene.ambient = color;
         for &light in lights {
             let position = single(DVec3::from_array(light));
             let kind = LightKind::Point { position, fades: false };
