@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
+use glam::Vec3A;
 use nestray_scene::scene::Scene;
 
 use crate::complete;
@@ -45,18 +46,20 @@ struct Format {
     extensions: &'static [&'static str],
     /// Whether a file may be of it, by its first bytes; asked if the extension says nothing.
     begins: fn(&[u8]) -> bool,
+    /// Which way is up where nothing says so.
+    up: Vec3A,
     read: fn(&[u8], &Source) -> Result<Loaded, LoadError>,
 }
 
 /// All formats; of those that a file may be of by its first bytes, the first.
 const FORMATS: &[Format] = &[
-    Format { extensions: &["nff"], begins: nff::begins, read: nff::read },
-    Format { extensions: &["obj"], begins: obj::begins, read: obj::read },
-    Format { extensions: &["ply"], begins: ply::begins, read: ply::read },
-    Format { extensions: &["stl"], begins: stl::begins, read: stl::read },
-    Format { extensions: &["off"], begins: off::begins, read: off::read },
-    Format { extensions: &["gltf", "glb"], begins: gltf::begins, read: gltf::read },
-    Format { extensions: &["json"], begins: native::begins, read: native::read },
+    Format { extensions: &["nff"], begins: nff::begins, up: Vec3A::Y, read: nff::read },
+    Format { extensions: &["obj"], begins: obj::begins, up: Vec3A::Y, read: obj::read },
+    Format { extensions: &["ply"], begins: ply::begins, up: Vec3A::Y, read: ply::read },
+    Format { extensions: &["stl"], begins: stl::begins, up: Vec3A::Z, read: stl::read },
+    Format { extensions: &["off"], begins: off::begins, up: Vec3A::Y, read: off::read },
+    Format { extensions: &["gltf", "glb"], begins: gltf::begins, up: Vec3A::Y, read: gltf::read },
+    Format { extensions: &["json"], begins: native::begins, up: Vec3A::Y, read: native::read },
 ];
 
 impl Default for LoadOptions {
@@ -146,7 +149,7 @@ pub fn read(bytes: &[u8], source: &Source) -> Result<Loaded, LoadError> {
     };
     let mut loaded = (format.read)(bytes, source)?;
     if source.options.complete {
-        complete::complete(&mut loaded.scene);
+        complete::complete(&mut loaded.scene, format.up);
     }
     loaded.scene.check().map_err(|error| source.spot().error(error.to_string()))?;
     Ok(loaded)
