@@ -5,7 +5,7 @@ use nestray_scene::animation::{Track, Way};
 
 use super::Reader;
 use super::document::AnimationSampler;
-use super::nodes::{Nodes, Tracks};
+use super::nodes::{Nodes, Tracks, named};
 
 impl Reader<'_> {
     /// Reads the first animation into the scene.
@@ -43,7 +43,10 @@ impl Reader<'_> {
                 "rotation" => {
                     tracks[at].rotation = self.track(sampler, turn).map_err(fail)?;
                 }
-                "weights" => self.warn("morph targets do not move: they are shown at rest".into()),
+                "weights" => {
+                    let name = named(&document.nodes[node].name, "node", node);
+                    self.warn(format!("morph targets of {name} do not move: shown at rest"));
+                }
                 other => {
                     self.warn(format!("animated `{}` is not read", other.escape_debug()));
                 }

@@ -112,7 +112,7 @@ parts! {
         offset: Option<[f32; 2]>, rotation: f32, scale: Option<[f32; 2]>,
         tex_coord: Option<usize>,
     }
-    Skin { inverse_bind_matrices: Option<usize>, joints: Vec<usize>, }
+    Skin { name: String, inverse_bind_matrices: Option<usize>, joints: Vec<usize>, }
     Animation { name: String, channels: Vec<Channel>, samplers: Vec<AnimationSampler>, }
     Channel { sampler: usize, target: Target, }
     Target { node: Option<usize>, path: String, }

@@ -159,8 +159,11 @@ impl Reader<'_> {
                     (None, Some(number)) => Motion::Node(number),
                     (None, None) => Motion::Still(found.world),
                 };
-                if variant.skin.is_some() && moving.contains(&true) {
-                    self.warn("skins do not move: they are shown at rest".into());
+                if let Some(skin) = variant.skin
+                    && moving.contains(&true)
+                {
+                    let name = named(&self.document.skins[skin].name, "skin", skin);
+                    self.warn(format!("skin {name} does not move: it is shown at rest"));
                 }
                 let root = self.scene.root;
                 let place = Place { name: node.name.clone(), group, motion };
@@ -218,6 +221,14 @@ impl Reader<'_> {
             places.push(Place { name: String::new(), group, motion: Motion::Still(place) });
         }
         Ok(self.scene.add_group(Group { name: String::new(), geometries: Vec::new(), places }))
+    }
+}
+
+/// What a part of the document is called in warnings.
+pub(super) fn named(name: &str, kind: &str, number: usize) -> String {
+    match name {
+        "" => format!("{kind}s[{number}]"),
+        name => format!("`{}`", name.escape_debug()),
     }
 }
 

@@ -94,7 +94,10 @@ fn a_skinned_man_stands_on_his_feet() {
     let size = bounds.max - bounds.min;
     assert!(size.y > 1.3 && size.y < 1.7 && size.x < 1.3 && size.z < 1.3, "{bounds:?}");
     assert!(bounds.min.y.abs() < 0.05, "{bounds:?}");
-    assert!(warnings.iter().any(|w| w.message.contains("skins do not move")));
+    assert!(warnings.iter().any(|w| w.message.contains("skin `Armature` does not move")));
+    let Some(Loaded { warnings, .. }) = shared("AnimatedMorphCube.glb") else { return };
+    let told = "morph targets of `AnimatedMorphCube` do not move";
+    assert!(warnings.iter().any(|w| w.message.contains(told)), "{warnings:?}");
 }
 
 #[test]
