@@ -116,6 +116,11 @@ pub(crate) struct RenderArgs {
     /// Stops brighter, for a .png.
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, value_parser = values::finite)]
     pub(crate) exposure: f32,
+    /// Most that light counts for which came over several surfaces, per sample, in multiples
+    /// of what is shown as white; 0 for no limit. Path tracing only. [default: 10 if nothing
+    /// but .png is written, else 0]
+    #[arg(long, value_name = "WHITES", value_parser = values::limit)]
+    pub(crate) clamp: Option<f32>,
     /// How samples become pixels.
     #[arg(long, default_value = "gaussian")]
     pub(crate) filter: FilterName,

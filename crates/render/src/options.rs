@@ -25,6 +25,11 @@ pub struct Options {
     pub max_depth: u32,
     /// How light is followed.
     pub integrator: Integrator,
+    /// Most that light counts for in [`Integrator::Path`] that came over two surfaces or
+    /// more, per light and sample: fewer lone bright pixels, for a loss where light is
+    /// focused. In the scene's own units, so none unless asked for; ten times what is shown
+    /// as white is seldom missed.
+    pub clamp: Option<f32>,
     /// How samples become pixels.
     pub filter: Filter,
     /// Another number gives another noise.
@@ -97,6 +102,7 @@ impl Default for Options {
             first_sample: 0,
             max_depth: 8,
             integrator: Integrator::Path,
+            clamp: None,
             filter: Filter::default(),
             seed: 0,
             threads: 0,
@@ -160,6 +166,11 @@ impl Options {
             && (radius.is_nan() || radius <= 0.0)
         {
             return Err(RenderError::Radius(radius));
+        }
+        if let Some(most) = self.clamp
+            && (most.is_nan() || most <= 0.0)
+        {
+            return Err(RenderError::Clamp(most));
         }
         let cameras = scene.cameras.len();
         if self.camera >= cameras {
@@ -240,6 +251,9 @@ pub enum RenderError {
     /// A distance that is none.
     #[error("radius: {0} is not a positive distance")]
     Radius(f32),
+    /// A limit that lets nothing through.
+    #[error("clamp: {0} is not a positive brightness")]
+    Clamp(f32),
     /// There is no such camera.
     #[error("camera: number {camera} of {cameras} (counted from 0)")]
     Camera {

@@ -108,7 +108,10 @@ fn integrator<'a>(
     let max_depth = options.max_depth;
     match options.integrator {
         Integrator::Whitted(whitted) => Box::new(Whitted { tree: whitted.tree, max_depth }),
-        Integrator::Path => Box::new(Path { lights: Lights::new(surfaces), max_depth, direct }),
+        Integrator::Path => {
+            let most = options.clamp.unwrap_or(f32::INFINITY);
+            Box::new(Path { lights: Lights::new(surfaces), max_depth, most, direct })
+        }
         Integrator::AmbientOcclusion { radius } => {
             Box::new(AmbientOcclusion { radius: radius.unwrap_or(f32::INFINITY) })
         }

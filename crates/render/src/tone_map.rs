@@ -40,6 +40,12 @@ pub enum Encoding {
 }
 
 impl ToneMap {
+    /// What light is multiplied by before it is shown.
+    #[must_use]
+    pub fn gain(&self) -> f32 {
+        libm::exp2f(self.exposure)
+    }
+
     /// The main layer as bytes, three a pixel, row by row from the top; black if it
     /// has fewer than three channels.
     #[must_use]
@@ -50,7 +56,7 @@ impl ToneMap {
         if channels < 3 {
             return black;
         }
-        let gain = libm::exp2f(self.exposure);
+        let gain = self.gain();
         let mut bytes = Vec::with_capacity(black.len());
         for pixel in layer.samples.chunks_exact(channels) {
             let color = [0, 1, 2].map(|i| pixel[i] * gain);

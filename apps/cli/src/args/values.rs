@@ -84,6 +84,10 @@ pub(super) fn positive(text: &str) -> Result<f32, String> {
     finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err("more than 0 is expected".into()) })
 }
 
+pub(super) fn limit(text: &str) -> Result<f32, String> {
+    finite(text).and_then(|x| if x >= 0.0 { Ok(x) } else { Err("0 or more is expected".into()) })
+}
+
 pub(super) fn part(text: &str) -> Result<f32, String> {
     let within = |x| if (0.0..=1.0).contains(&x) { Ok(x) } else { Err("0 to 1".to_owned()) };
     finite(text).and_then(within)

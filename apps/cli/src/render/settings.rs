@@ -1,10 +1,12 @@
 //! From the command line to the options of a render.
 
+use std::path::PathBuf;
+
 use nestray::io::write::PictureFormat;
 use nestray::plan::error::nearest;
 use nestray::render::filter::Filter;
 use nestray::render::options::{Crop, Integrator, Options, WhittedOptions};
-use nestray::render::tone_map::Curve;
+use nestray::render::tone_map::{Curve, ToneMap};
 use nestray::scene::scene::Scene;
 
 use crate::args::{CurveName, FilterName, IntegratorName, RenderArgs};
@@ -39,12 +41,26 @@ pub(super) fn options(args: &RenderArgs, scene: &Scene) -> Result<Options, Failu
     options.crop = args.crop.map(|[x0, x1, y0, y1]| Crop { from: [x0, y0], to: [x1, y1] });
     let keeps = |path| matches!(PictureFormat::of(path), Ok(PictureFormat::Exr));
     Ok(Options {
+        clamp: clamp(args),
         seed: args.seed,
         threads: args.threads,
         camera,
         layers: args.output.iter().any(|path| keeps(path)),
         ..options
     })
+}
+
+/// What is asked for, or ten times white where only bytes to look at are kept.
+fn clamp(args: &RenderArgs) -> Option<f32> {
+    /// Fireflies are a hundred times as bright and more; what a mirror or a lens gathers of a
+    /// lit surface is rarely ten.
+    const WHITES: f32 = 10.0;
+    let is_png = |path: &PathBuf| matches!(PictureFormat::of(path), Ok(PictureFormat::Png));
+    let usual = if args.output.iter().all(is_png) { WHITES } else { 0.0 };
+    let whites = args.clamp.unwrap_or(usual);
+    let shown = ToneMap { exposure: args.exposure, ..ToneMap::default() };
+    let limit = whites / shown.gain();
+    (whites > 0.0 && limit > 0.0 && limit.is_finite()).then_some(limit)
 }
 
 /// The camera of that number or name; the first if none is asked for.

@@ -133,18 +133,22 @@ impl Layered {
         })
     }
 
-    /// How often a mirrored direction is sampled, not one of the ground.
+    /// How often a mirrored direction is sampled, not one of those all around.
     fn chance_of_mirror(&self, albedo: Albedo) -> f32 {
         let coat = self.coat.albedo(albedo);
-        let mirror = self.metal.part * self.metal.albedo(albedo) + self.coat.part * coat;
+        let all = self.metal.part * self.metal.albedo(albedo) + self.coat.part * coat;
+        // What comes back after several bounces is sampled as the ground is: few of the
+        // directions after one would otherwise have to carry it.
+        let mirror = all / (1.0 + albedo.lost());
+        let again = all - mirror;
         let ground = self.ground.max_element() * (1.0 - coat);
         if ground <= 0.0 {
-            return 1.0;
+            return if mirror > 0.0 { mirror / (mirror + again) } else { 1.0 };
         }
         if mirror <= 0.0 {
             return 0.0;
         }
-        (mirror / (mirror + ground)).clamp(0.1, 0.9)
+        (mirror / (mirror + ground + again)).clamp(0.1, 0.9)
     }
 
     /// What mirrors of this roughness give back of light from one side.

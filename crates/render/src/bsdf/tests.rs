@@ -1,5 +1,5 @@
 use super::*;
-use crate::directions::{SPHERE_DENSITY, on_sphere};
+use crate::directions::{SPHERE_DENSITY, cosine_weighted, on_sphere};
 use crate::sampler::{Sampler, Set};
 
 fn look(base: f32, metallic: f32, roughness: f32, transmission: f32, ior: f32) -> Look {
@@ -136,4 +136,20 @@ fn opaque_surfaces_scatter_alike_both_ways_without_gain() {
     let (there, back) = (bsdf.evaluate(a, b).0 / b.z, bsdf.evaluate(b, a).0 / a.z);
     assert!((there - back).length() < 1e-6, "{there} {back}");
     assert!((there.x - 0.8 / std::f32::consts::PI).abs() < 1e-6);
+}
+
+#[test]
+fn no_direction_carries_much_more_than_the_others() {
+    for roughness in [0.3, 0.6, 1.0] {
+        let bsdf = Bsdf::new(&look(1.0, 1.0, roughness, 0.0, 1.5), true, 0.5);
+        let mut most = 0.0f32;
+        for i in 0..200_000u32 {
+            let [a, b, c, d] = Sampler::new(i, 0, 7).four(Set::Eye);
+            let v = cosine_weighted([a, d]);
+            if let Some(scatter) = bsdf.sample(v, [b, c, d]) {
+                most = most.max(scatter.weight.max_element());
+            }
+        }
+        assert!(most < 2.0, "roughness {roughness}: {most}");
+    }
 }

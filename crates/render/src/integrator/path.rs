@@ -3,15 +3,15 @@
 //! At every surface a light is picked and, by the material, a direction; where both could
 //! have found the same light, each counts by how likely it was to [Veach 95].
 
+mod met;
+
 use glam::Vec3A;
 use nestray_core::hit::Hit;
 use nestray_core::ray::Ray;
-use nestray_scene::surfaces::Point;
 
+use self::met::Met;
 use super::{Integrate, note};
 use crate::background;
-use crate::bsdf::Bsdf;
-use crate::directions::Frame;
 use crate::eye::{Seen, Start};
 use crate::light_sampling::Lights;
 use crate::look::Look;
@@ -22,6 +22,8 @@ use crate::tracer::{Tracer, source};
 pub(crate) struct Path<'a> {
     pub(crate) lights: Lights<'a>,
     pub(crate) max_depth: u32,
+    /// Most that light counts for which came over two surfaces or more.
+    pub(crate) most: f32,
     pub(crate) direct: Direct,
 }
 
@@ -64,16 +66,6 @@ struct Waiting {
     start: u32,
     light: Vec3A,
     ray: Ray,
-}
-
-/// A surface a path met.
-struct Met {
-    point: Point,
-    bsdf: Bsdf,
-    frame: Frame,
-    to_eye: Vec3A,
-    /// The true normal, on the side of the eye.
-    normal: Vec3A,
 }
 
 impl Integrate for Path<'_> {
@@ -135,7 +127,8 @@ impl Path<'_> {
         let dir = ray.dir().normalize();
         if !hit.is_some() {
             let light = background::radiance(scene, dir);
-            seen.color += walk.share * light * self.weight(walk, self.lights.density_of_sky(dir));
+            let light = walk.share * light * self.weight(walk, self.lights.density_of_sky(dir));
+            seen.color += self.limited(light, depth - 1);
             return None;
         }
         let point = tracer.point(ray, hit);
@@ -149,7 +142,8 @@ impl Path<'_> {
                 true => 0.0,
                 false => self.lights.density_of_hit(walk.from, ray.time(), hit, surface),
             };
-            seen.color += walk.share * look.emission * self.weight(walk, density);
+            let light = walk.share * look.emission * self.weight(walk, density);
+            seen.color += self.limited(light, depth - 1);
         }
         if depth > self.max_depth {
             return None;
@@ -211,22 +205,13 @@ impl Path<'_> {
             None => Ray::new(origin, towards.dir, towards.kind),
         };
         let ray = shadow.at_time(ray.time()).leaving(source(hit));
-        Some(Waiting { start: walk.start, light, ray })
+        Some(Waiting { start: walk.start, light: self.limited(light, depth), ray })
     }
-}
 
-impl Met {
-    fn new(point: Point, look: &Look, to_eye: Vec3A, part: f32) -> Self {
-        let front = to_eye.dot(point.surface.normal) >= 0.0;
-        let side = if front { 1.0 } else { -1.0 };
-        let (normal, mut shading) = (point.surface.normal * side, look.normal * side);
-        // A smooth normal that would turn the surface away from the eye is not used.
-        if shading.dot(to_eye) <= 1e-4 {
-            shading = normal;
-        }
-        let frame = Frame::about(shading);
-        let bsdf = Bsdf::new(look, front, part);
-        Self { point, bsdf, frame, to_eye: frame.local(to_eye), normal }
+    /// Light that came over so many surfaces, no more of it than may count.
+    fn limited(&self, light: Vec3A, surfaces: u32) -> Vec3A {
+        let bright = light.max_element();
+        if surfaces > 1 && bright > self.most { light * (self.most / bright) } else { light }
     }
 }
 

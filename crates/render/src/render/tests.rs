@@ -287,6 +287,7 @@ fn options_without_sense_are_refused_by_name() {
         (Options { wave: 0, ..good.clone() }, "wave"),
         (Options { max_depth: 0, ..good.clone() }, "max_depth: 0"),
         (Options { max_depth: 40, integrator: full, ..good.clone() }, "1 to 12"),
+        (Options { clamp: Some(0.0), ..good.clone() }, "clamp: 0"),
         (Options { camera: 1, ..good.clone() }, "camera: number 1 of 1"),
         (Options { integrator: radius, ..good.clone() }, "radius: NaN"),
     ] {

@@ -227,3 +227,16 @@ fn half_a_surface_lets_half_the_light_through() {
         assert!((lit - expected).abs() < 0.02, "lit through {mode:?}: {lit}");
     }
 }
+
+#[test]
+fn the_clamp_limits_light_over_several_surfaces_only() {
+    let scene = room(Material { metallic: 1.0, roughness: 0.25, ..Material::default() });
+    let seen = |max_depth: u32, clamp: Option<f32>| {
+        let options = Options { max_depth, clamp, ..quick(Integrator::Path, 64) };
+        mean(&picture(&scene, &options).picture)
+    };
+    assert_eq!(seen(1, Some(1e-3)), seen(1, None), "light over one surface is never limited");
+    let (all, limited, none) = (seen(5, None), seen(5, Some(0.2)), seen(1, None));
+    assert!(none < limited && limited < 0.98 * all, "{none} < {limited} < {all}");
+    assert_eq!(seen(5, Some(1e6)), all);
+}
