@@ -64,10 +64,18 @@ const CHORES: &[Chore] = &[
             long!("determinism", "NESTRAY_PICTURES" = "1000"),
         ],
     },
+    Chore {
+        name: "contact-sheet",
+        about: "pictures of all shared scenes: SCENES docs/pictures [NAME...]",
+        steps: &[cargo(&["run", "--release", "-p", "nestray-sheet", "--"])],
+    },
 ];
 
 fn main() -> ExitCode {
-    let name = std::env::args().nth(1).unwrap_or_default();
+    let mut args = std::env::args().skip(1);
+    let name = args.next().unwrap_or_default();
+    // What follows the name of a chore is for its commands.
+    let rest: Vec<String> = args.collect();
     let Some(chore) = CHORES.iter().find(|chore| chore.name == name) else {
         println!("cargo xtask CHORE, one of:");
         for chore in CHORES {
@@ -78,7 +86,7 @@ fn main() -> ExitCode {
     for step in chore.steps {
         println!("\n> cargo {}", step.args.join(" "));
         let mut command = Command::new(env!("CARGO"));
-        match command.args(step.args).envs(step.env.iter().copied()).status() {
+        match command.args(step.args).args(&rest).envs(step.env.iter().copied()).status() {
             Ok(status) if status.success() => {}
             Ok(status) => {
                 println!("cargo {}: {status}", step.args.join(" "));
