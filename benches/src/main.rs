@@ -11,6 +11,7 @@ use std::error::Error;
 use std::path::Path;
 
 use contest::{Contender, Contest};
+use glam::DVec3;
 use nestray::prelude::*;
 use parry3d::math::Vector;
 use parry3d::query::RayCast;
@@ -31,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let world = build(&single("bvh", Default::default(), &scene)?, &scene)?;
     let corner = |p: &[f32; 3]| Vector::new(p[0], p[1], p[2]);
-    let peer = TriMesh::new(positions.iter().map(corner).collect(), faces)?;
+    let peer = TriMesh::new(positions.iter().map(corner).collect(), faces.clone())?;
     for (name, rays) in [("primary", primary(&scene, side)), ("chords", chords(&scene, side))] {
         let theirs: Vec<parry3d::query::Ray> = rays
             .iter()
@@ -61,7 +62,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                 *t = peer.cast_local_ray(ray, f32::MAX, false).unwrap_or(f32::INFINITY);
             }
         };
-        Contest { name, rays: rays.len(), rounds: ROUNDS }.run(vec![
+        let judge = |ray: usize| exhaustive(&positions, &faces, &rays[ray]);
+        Contest { name, rays: rays.len(), rounds: ROUNDS, judge: &judge }.run(vec![
             Contender { name: "parry3d", shoot: &mut parry },
             Contender { name: "nestray, single", shoot: &mut one_by_one },
             Contender { name: "nestray, batch", shoot: &mut in_batches },
@@ -81,6 +83,26 @@ fn triangles(scene: &Scene) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         }
     }
     (positions, faces)
+}
+
+/// How far a ray goes until it meets a triangle, in doubles; infinite if it meets none.
+fn exhaustive(positions: &[[f32; 3]], faces: &[[u32; 3]], ray: &Ray) -> f64 {
+    let (origin, dir) = (ray.origin().as_dvec3(), ray.dir().as_dvec3());
+    let corner = |v: u32| DVec3::from(positions[v as usize].map(f64::from)) - origin;
+    let mut nearest = f64::INFINITY;
+    for &[a, b, c] in faces {
+        let [a, b, c] = [corner(a), corner(b), corner(c)];
+        // The volumes the ray spans with the edges have one sign where it is inside all three.
+        let edges = [c.cross(b), a.cross(c), b.cross(a)].map(|edge| edge.dot(dir));
+        let sum: f64 = edges.iter().sum();
+        if edges.iter().all(|&edge| edge >= 0.0) || edges.iter().all(|&edge| edge <= 0.0) {
+            let t = (a * edges[0] + b * edges[1] + c * edges[2]).dot(dir) / sum / dir.dot(dir);
+            if t >= 0.0 && t < nearest {
+                nearest = t;
+            }
+        }
+    }
+    nearest
 }
 
 /// One ray through the middle of each pixel, line by line.
