@@ -17,7 +17,7 @@ pub(crate) use self::values::{Frames, Numbers, Window};
 #[derive(Debug, Parser)]
 #[command(name = "nestray", version, arg_required_else_help = true)]
 #[command(after_help = "Exit codes: 0 done, 1 failed, 2 asked for in the wrong way, 3 a file \
-    cannot be read, 130 interrupted.")]
+    cannot be read, 4 answers differ, 130 interrupted.")]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) verb: Verb,
@@ -54,6 +54,8 @@ pub(crate) enum Verb {
     Convert(ConvertArgs),
     /// Say what is in a scene or plan, and what there is to choose from.
     Inspect(InspectArgs),
+    /// Let plans shoot the same rays, in turns.
+    Bench(BenchArgs),
 }
 
 /// `nestray demo`.
@@ -220,6 +222,32 @@ pub(crate) struct InspectArgs {
     /// Name what there is to choose from.
     #[arg(long)]
     pub(crate) list: Option<ListName>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// `nestray bench`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Rays: from the eye; from what those hit to the first light, mirrored and \
+    scattered; random lines. One thread; medians.\n\nExamples:\n  \
+    nestray bench scene.gltf\n  \
+    nestray bench scene.gltf --plans bvh,grid,mine.json --verify")]
+pub(crate) struct BenchArgs {
+    /// A file, `-` for standard input, or `builtin:NAME`.
+    pub(crate) scene: String,
+    /// Techniques, `auto` or plan files; every technique if none is named.
+    #[arg(long, value_name = "PLAN,…", value_delimiter = ',')]
+    pub(crate) plans: Vec<String>,
+    /// Most rays of each kind.
+    #[arg(long, default_value_t = 65_536, value_parser = values::rays)]
+    pub(crate) rays: usize,
+    /// Turns of each plan.
+    #[arg(long, default_value_t = 5, value_parser = values::rounds)]
+    pub(crate) rounds: usize,
+    /// Check answers by exhaustive search.
+    #[arg(long)]
+    pub(crate) verify: bool,
     /// As JSON.
     #[arg(long)]
     pub(crate) json: bool,

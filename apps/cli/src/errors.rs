@@ -23,6 +23,8 @@ impl Failure {
     pub(crate) const USAGE: u8 = 2;
     /// A scene, plan or file of rays cannot be read.
     pub(crate) const UNREADABLE: u8 = 3;
+    /// Answers that must be the same are not.
+    pub(crate) const DIFFERENT: u8 = 4;
     /// It was interrupted.
     pub(crate) const INTERRUPTED: u8 = 130;
 

@@ -1,6 +1,7 @@
 //! The nestray program: scenes in, pictures and answers out.
 
 mod args;
+mod bench;
 mod convert;
 mod demo;
 mod errors;
@@ -42,5 +43,6 @@ fn run(args: &args::Args) -> Result<(), Failure> {
         Verb::Generate(generate) => generate::run(generate, talk),
         Verb::Convert(convert) => convert::run(convert, talk),
         Verb::Inspect(inspect) => inspect::run(inspect, talk),
+        Verb::Bench(bench) => bench::run(bench, talk),
     }
 }

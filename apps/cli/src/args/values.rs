@@ -73,6 +73,20 @@ pub(super) fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
+pub(super) fn rays(text: &str) -> Result<usize, String> {
+    match text.replace('_', "").parse() {
+        Ok(count) if (1..=100_000_000).contains(&count) => Ok(count),
+        _ => Err("1 to 100000000 rays".into()),
+    }
+}
+
+pub(super) fn rounds(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=1000).contains(&count) => Ok(count),
+        _ => Err("1 to 1000 rounds".into()),
+    }
+}
+
 pub(super) fn finite(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(number) if number.is_finite() => Ok(number),

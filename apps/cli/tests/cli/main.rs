@@ -1,6 +1,7 @@
 //! The program as people run it.
 
 mod bad_input;
+mod bench;
 #[cfg(unix)]
 mod interrupt;
 mod program;

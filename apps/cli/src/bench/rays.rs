@@ -1,0 +1,94 @@
+//! The rays of a bench: from the eye, from what those hit, and from everywhere.
+
+use nestray::batch::closest_hits;
+use nestray::prelude::{DynObject, Object as _, Ray, RayKind, Scene, Surfaces, Vec3A};
+use nestray::scene::light::LightKind;
+
+use crate::errors::Failure;
+
+/// Rays of one kind.
+pub(super) struct RaySet {
+    pub(super) name: &'static str,
+    pub(super) rays: Vec<Ray>,
+    /// Whether it only matters that something is hit.
+    pub(super) any: bool,
+}
+
+/// Sets of at most `count` rays each; those without a ray are left out.
+pub(super) fn sets(scene: &Scene, world: &DynObject, count: usize) -> Result<Vec<RaySet>, Failure> {
+    let camera = camera(scene, count);
+    let mut sets = vec![RaySet { name: "camera", rays: camera, any: false }];
+    sets.extend(bounces(scene, world, &sets[0].rays)?);
+    sets.push(RaySet { name: "chords", rays: chords(world, count), any: false });
+    sets.retain(|set| !set.rays.is_empty());
+    Ok(sets)
+}
+
+/// Through the middles of the pixels of a square picture, line by line.
+fn camera(scene: &Scene, count: usize) -> Vec<Ray> {
+    let Some(camera) = scene.cameras.first() else { return Vec::new() };
+    let (side, view) = (count.isqrt().max(1), camera.view(1.0));
+    (0..side * side)
+        .map(|i| {
+            let at = |i: usize| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
+            let (origin, dir) = view.ray(at(i % side), -at(i / side), [0.0; 2]);
+            Ray::new(origin, dir, RayKind::Camera)
+        })
+        .collect()
+}
+
+/// From what rays hit: to the first light, mirrored, and scattered.
+fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3], Failure> {
+    let surfaces = Surfaces::new(scene).map_err(|e| Failure::new(Failure::UNREADABLE, e))?;
+    let (mut shadow, mut mirrored, mut diffuse) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, (ray, hit)) in rays.iter().zip(&closest_hits(world, rays)).enumerate() {
+        if !hit.is_some() {
+            continue;
+        }
+        let at = surfaces.at(ray, hit).surface;
+        let normal = if at.normal.dot(ray.dir()) > 0.0 { -at.normal } else { at.normal };
+        let to = |dir: Vec3A, kind: RayKind| Ray::new(at.leave(dir), dir, kind);
+        if let Some(light) = scene.lights.first() {
+            let kind = RayKind::Shadow { light: 0 };
+            match light.kind {
+                LightKind::Directional { direction } => shadow.push(to(-direction, kind)),
+                LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
+                    let from = at.leave(position - at.position);
+                    shadow.push(Ray::new(from, position - from, kind).between(0.0, 0.999));
+                }
+            }
+        }
+        let dir = ray.dir().normalize();
+        mirrored.push(to(dir - normal * (2.0 * dir.dot(normal)), RayKind::Reflect));
+        // A point on the sphere that touches the surface: scattered by Lambert's law.
+        diffuse.push(to(normal * 1.0001 + on_sphere(i), RayKind::Diffuse));
+    }
+    Ok([
+        RaySet { name: "shadow", rays: shadow, any: true },
+        RaySet { name: "reflect", rays: mirrored, any: false },
+        RaySet { name: "diffuse", rays: diffuse, any: false },
+    ])
+}
+
+/// Between points spread over a sphere around everything: random lines, in no order.
+fn chords(world: &DynObject, count: usize) -> Vec<Ray> {
+    let bounds = world.bounds();
+    if bounds.is_empty() || !bounds.is_bounded() {
+        return Vec::new();
+    }
+    let (center, radius) = (bounds.center(), 0.5 * bounds.size().length());
+    let point = |i: usize| center + on_sphere(i) * radius;
+    (0..count)
+        .map(|i| Ray::new(point(2 * i), point(2 * i + 1) - point(2 * i), RayKind::Custom(0)))
+        .collect()
+}
+
+/// Points that fill the unit sphere evenly, each far from the last.
+fn on_sphere(i: usize) -> Vec3A {
+    // Steps of irrational length, without a pattern between neighbours.
+    let part = |step: f64| ((i as f64 + 0.5) * step).fract();
+    let z = (2.0 * part(0.754_877_666_246_692_7) - 1.0) as f32;
+    let turn = (std::f64::consts::TAU * part(0.569_840_290_998_053_3)) as f32;
+    let across = (1.0 - z * z).max(0.0).sqrt();
+    Vec3A::new(across * turn.cos(), across * turn.sin(), z)
+}
