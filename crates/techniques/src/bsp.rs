@@ -1,0 +1,77 @@
+//! The BSP tree of [Kaplan 85]: cells cut in the middle, along each axis in turn.
+//!
+//! Space `O(n)` (at most 8 entries a child), build `O(n · depth)`, a ray visits the cells on its
+//! way.
+
+use nestray_core::accel::Accel;
+use nestray_core::technique::{OutOfRange, Params, in_range};
+use serde::{Deserialize, Serialize};
+
+use crate::cells::{Cell, CellsIndex, Children, Plane, Rule};
+
+/// A BSP tree over the children `C`.
+pub type Bsp<C> = Accel<BspIndex, C>;
+
+/// Space cut into halves.
+pub type BspIndex = CellsIndex<InHalves>;
+
+/// Cuts cells in the middle.
+#[derive(Debug)]
+pub struct InHalves {
+    max_leaf: usize,
+    max_depth: u32,
+}
+
+/// Settings of a BSP tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BspParams {
+    /// Cells with more children are cut, 2 in the literature; 0 is 8 for packed triangles and 2
+    /// for all else.
+    pub max_leaf: usize,
+    /// Most cells around one, 16 in the literature; 0 chooses by the number of children, 16 or
+    /// more.
+    pub max_depth: u32,
+}
+
+impl Params for BspParams {
+    fn neighbours(&self) -> Vec<Self> {
+        let from = if self.max_leaf > 0 { self.max_leaf } else { 4 };
+        [from / 2, from * 2]
+            .map(|max_leaf| Self { max_leaf, ..*self })
+            .into_iter()
+            .filter(|params| params.max_leaf > 0 && params.check().is_ok())
+            .collect()
+    }
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        in_range((0..=64).contains(&self.max_leaf), "max_leaf", "0 (chosen), or 1 to 64")?;
+        in_range((0..=64).contains(&self.max_depth), "max_depth", "0 (chosen), or 1 to 64")
+    }
+}
+
+impl Rule for InHalves {
+    const NAME: &'static str = "bsp";
+    type Params = BspParams;
+    /// The axis to cut next.
+    type Memory = usize;
+
+    fn new(params: &BspParams, children: &Children) -> Self {
+        let max_depth = match params.max_depth {
+            0 => children.usual_depth().max(16),
+            depth => depth,
+        };
+        Self { max_leaf: children.most_in_leaf(params.max_leaf, 2), max_depth }
+    }
+
+    fn cut(&self, cell: &Cell<'_>, next: usize) -> Option<(Plane, usize)> {
+        if cell.inside.len() <= self.max_leaf || cell.depth >= self.max_depth {
+            return None;
+        }
+        // An axis along which nothing is set apart waits for the next turn.
+        (next..next + 3).map(|axis| axis % 3).find_map(|axis| {
+            let at = cell.middle(axis).filter(|&at| cell.separates(axis, at))?;
+            Some((Plane { axis, at }, (axis + 1) % 3))
+        })
+    }
+}

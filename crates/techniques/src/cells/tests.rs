@@ -1,0 +1,291 @@
+//! What holds of all trees of cells.
+
+use glam::Vec3A;
+use nestray_core::aabb::{Aabb, Clip};
+use nestray_core::beam::{Beam, Facing};
+use nestray_core::family::Family;
+use nestray_core::ray::{Ray, RayKind, Source};
+use nestray_core::simd::SCALAR;
+use nestray_core::technique::{Asks, Leaf, Leaves, Params, Technique, Walk};
+use nestray_core::trail::Trail;
+
+use super::{CellsIndex, Children, Cursor, Rule};
+use crate::bsp::{BspParams, InHalves};
+use crate::kd_tree::ByArea;
+use crate::octree::{InEighths, OctreeParams};
+
+/// Boxes that nothing else is known of.
+struct Boxes(Vec<Aabb>);
+
+impl Family for Boxes {
+    fn count(&self) -> u32 {
+        self.0.len() as u32
+    }
+    fn bounds(&self, child: u32) -> Aabb {
+        self.0[child as usize].padded()
+    }
+    fn weight(&self, _child: u32) -> f32 {
+        20.0
+    }
+    fn together(&self) -> u32 {
+        1
+    }
+    fn bounds_during(&self, child: u32, _time: [f32; 2]) -> Aabb {
+        self.bounds(child)
+    }
+    fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
+        self.bounds(child).meet(*cell)
+    }
+    fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
+        self.bounds(child).along(direction)
+    }
+    fn touches(&self, child: u32, cell: &Aabb) -> bool {
+        self.bounds(child).overlaps(cell)
+    }
+    fn meets(&self, child: u32, beam: &Beam) -> Option<[f32; 2]> {
+        beam.meets(&self.bounds(child))
+    }
+    fn blocks(&self, _child: u32, _beam: &Beam) -> Option<f32> {
+        None
+    }
+    fn facing(&self, _child: u32, _beam: &Beam) -> Facing {
+        Facing::Mixed
+    }
+    fn child_of(&self, _source: &Source) -> Option<u32> {
+        None
+    }
+}
+
+/// Random numbers, the same for the same seed.
+struct Numbers(u64);
+
+impl Numbers {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn point(&mut self) -> Vec3A {
+        Vec3A::new(self.unit(), self.unit(), self.unit())
+    }
+
+    fn direction(&mut self) -> Vec3A {
+        loop {
+            let point = self.point() * 2.0 - 1.0;
+            if (0.01..=1.0).contains(&point.length_squared()) {
+                return point.normalize();
+            }
+        }
+    }
+}
+
+/// Boxes of all sizes, more of them towards one corner.
+fn boxes(seed: u64, count: usize) -> Boxes {
+    let mut numbers = Numbers(seed);
+    let mut next = || {
+        let min = numbers.point() * numbers.point();
+        let size = [0.01, 0.03, 0.1][(numbers.unit() * 3.0) as usize];
+        Aabb { min, max: min + numbers.point() * size }
+    };
+    Boxes((0..count).map(|_| next()).collect())
+}
+
+pub(crate) fn children(seed: u64, count: usize) -> Children {
+    Children::new(&boxes(seed, count))
+}
+
+fn tree<R: Rule>(params: &R::Params, family: &Boxes) -> (CellsIndex<R>, Leaves) {
+    let mut leaves = Leaves::default();
+    let tree = CellsIndex::build(params, family, &mut leaves);
+    (tree, leaves)
+}
+
+/// The cells with children in them.
+fn full<R: Rule>(tree: &CellsIndex<R>) -> Vec<(Aabb, Leaf)> {
+    tree.cells().into_iter().filter_map(|(bounds, leaf)| Some((bounds, leaf?))).collect()
+}
+
+/// Sends a ray through; calls `leaf` for all leaves and returns the number of steps.
+fn send<R: Rule>(
+    tree: &CellsIndex<R>,
+    family: &Boxes,
+    ray: &Ray,
+    mut leaf: impl FnMut(Leaf, &Cursor),
+) -> usize {
+    let mut trail = Trail::new();
+    let mut walk = Walk { ray, trail: &mut trail, family };
+    let limit = ray.t_max();
+    let (mut cursor, mut at) = tree.start(SCALAR, &mut walk, limit);
+    let mut steps = 0;
+    while !at.is_done() {
+        if at.is_onward() {
+            steps += 1;
+            at = tree.step::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, at, limit);
+        } else {
+            leaf(at.as_leaf(), &cursor);
+            at = tree.resume::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, limit);
+        }
+    }
+    steps
+}
+
+fn every_point_of_a_child_is_in_a_cell_with_it<R: Rule>() {
+    let family = boxes(1, 300);
+    let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+    let cells = full(&tree);
+    assert!(cells.len() > 50, "{}: {} cells", R::NAME, cells.len());
+    let mut numbers = Numbers(2);
+    for child in 0..family.count() {
+        let bounds = family.bounds(child);
+        for corner in 0..8 {
+            let within = bounds.min + numbers.point() * bounds.size();
+            for point in [within, bounds.corner(corner)] {
+                let point = Aabb { min: point, max: point };
+                let has = |&&(cell, leaf): &&(Aabb, Leaf)| {
+                    cell.contains(&point) && leaves.of(leaf.0 as usize).contains(&child)
+                };
+                assert!(cells.iter().find(has).is_some(), "{}: child {child}", R::NAME);
+            }
+        }
+    }
+    for (i, (a, _)) in cells.iter().enumerate() {
+        for (b, _) in &cells[..i] {
+            let both = a.meet(*b).size();
+            assert!(both.min_element() <= 0.0, "{}: {a:?} and {b:?} overlap", R::NAME);
+        }
+    }
+}
+
+#[test]
+fn every_point_of_a_child_is_in_a_cell_with_it_and_cells_do_not_overlap() {
+    every_point_of_a_child_is_in_a_cell_with_it::<ByArea>();
+    every_point_of_a_child_is_in_a_cell_with_it::<InHalves>();
+    every_point_of_a_child_is_in_a_cell_with_it::<InEighths>();
+}
+
+fn cells_come_in_order<R: Rule>() {
+    let family = boxes(3, 1000);
+    let (tree, _) = tree::<R>(&R::Params::default(), &family);
+    let cells = full(&tree);
+    let mut numbers = Numbers(4);
+    for i in 0..2000 {
+        let (origin, mut dir) = (numbers.point() * 3.0 - 1.0, numbers.direction());
+        if i % 4 == 0 {
+            dir[i / 4 % 3] = 0.0;
+        }
+        let ray = Ray::new(origin, dir, RayKind::Camera);
+        let clip = Clip::new(&ray, tree.bounds().reach());
+        let (mut last, mut shown) = (0.0, Vec::new());
+        send(&tree, &family, &ray, |leaf, cursor| {
+            let begin = cursor.span[0];
+            assert!(begin >= last - 1e-4, "{}, ray {i}: {begin} after {last}", R::NAME);
+            last = begin;
+            shown.push(leaf.0);
+        });
+        shown.sort_unstable();
+        let met: Vec<u32> = cells
+            .iter()
+            .filter(|(bounds, _)| clip.cut(bounds, ray.t_max()).is_some())
+            .map(|(_, leaf)| leaf.0)
+            .collect();
+        assert_eq!(shown, met, "{}, ray {i}: all the cells it meets, once each", R::NAME);
+    }
+}
+
+#[test]
+fn a_ray_is_shown_all_cells_it_meets_once_and_in_order() {
+    cells_come_in_order::<ByArea>();
+    cells_come_in_order::<InHalves>();
+    cells_come_in_order::<InEighths>();
+}
+
+fn random_lines_do_what_is_expected<R: Rule>() {
+    let family = boxes(5, 2000);
+    let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+    let expected = tree.expected(&family, &leaves);
+    let (bounds, mut numbers) = (tree.bounds(), Numbers(6));
+    let radius = bounds.size().length() / 2.0;
+    let (mut lines, mut steps, mut tests) = (0, 0, 0);
+    while lines < 40_000 {
+        let (dir, aside) = (numbers.direction(), numbers.point() * 2.0 - 1.0);
+        let (u, v) = dir.any_orthonormal_pair();
+        if aside.x * aside.x + aside.y * aside.y > 1.0 {
+            continue;
+        }
+        let origin = bounds.center() + (u * aside.x + v * aside.y) * radius - dir * 2.0 * radius;
+        let ray = Ray::new(origin, dir, RayKind::Camera);
+        if Clip::new(&ray, bounds.reach()).cut(&bounds, f32::INFINITY).is_none() {
+            continue;
+        }
+        lines += 1;
+        let mut tested = Vec::<u32>::new();
+        steps += send(&tree, &family, &ray, |leaf, _| tested.extend(leaves.of(leaf.0 as usize)));
+        tested.sort_unstable();
+        tested.dedup();
+        tests += tested.len();
+    }
+    let share = steps as f64 / f64::from(lines) / expected.steps;
+    assert!((0.98..1.02).contains(&share), "{}: steps {share} of expected", R::NAME);
+    let sum: f64 = expected.tests.iter().copied().map(f64::from).sum();
+    let share = tests as f64 / f64::from(lines) / sum;
+    assert!((0.8..1.2).contains(&share), "{}: tests {share} of expected", R::NAME);
+}
+
+#[test]
+fn random_lines_take_the_expected_steps_and_tests() {
+    random_lines_do_what_is_expected::<ByArea>();
+    random_lines_do_what_is_expected::<InHalves>();
+    random_lines_do_what_is_expected::<InEighths>();
+}
+
+fn refinement_ends<R: Rule>() {
+    let one = Aabb { min: Vec3A::ZERO, max: Vec3A::ONE };
+    let flat = Aabb { min: Vec3A::ZERO, max: Vec3A::new(1.0, 1.0, 0.0) };
+    let point = Aabb { min: Vec3A::ONE, max: Vec3A::ONE };
+    let far = Aabb { min: Vec3A::splat(1e6), max: Vec3A::splat(1e6) };
+    for of in [one, flat, point] {
+        let mut all = vec![of; 1_000_000];
+        all.push(far);
+        let family = Boxes(all);
+        let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+        let entries: usize = (0..leaves.count()).map(|leaf| leaves.of(leaf).len()).sum();
+        assert!(entries <= 8 * family.0.len(), "{}: {entries} entries", R::NAME);
+        assert!(tree.cells().len() < 1000, "{}: {} cells", R::NAME, tree.cells().len());
+    }
+}
+
+#[test]
+fn a_million_children_in_one_place_are_given_up_on() {
+    refinement_ends::<ByArea>();
+    refinement_ends::<InHalves>();
+    refinement_ends::<InEighths>();
+}
+
+fn edges_are_halves_of_halves<R: Rule>(params: &R::Params) {
+    let (tree, _) = tree::<R>(params, &boxes(7, 500));
+    for (bounds, _) in tree.cells() {
+        let times = tree.bounds().size() / bounds.size();
+        for axis in 0..3 {
+            let power = f64::from(times[axis]).log2();
+            assert!((power - power.round()).abs() < 1e-3, "{}: {power}", R::NAME);
+        }
+    }
+}
+
+#[test]
+fn cells_of_a_bsp_tree_and_an_octree_are_halves_of_halves() {
+    edges_are_halves_of_halves::<InHalves>(&BspParams::default());
+    edges_are_halves_of_halves::<InEighths>(&OctreeParams::default());
+}
+
+#[test]
+fn settings_next_to_the_usual_are_in_range() {
+    fn check<R: Rule>() {
+        let usual = R::Params::default();
+        assert_eq!(usual.check(), Ok(()));
+        assert!(usual.neighbours().iter().all(|next| next.check().is_ok() && *next != usual));
+    }
+    check::<ByArea>();
+    check::<InHalves>();
+    check::<InEighths>();
+}
