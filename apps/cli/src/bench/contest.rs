@@ -12,6 +12,8 @@ use crate::stop;
 const TURN: Duration = Duration::from_millis(500);
 /// Rays of the first try.
 const FIRST: usize = 64;
+/// Neighbours that stay together when there is no time for all rays.
+const BLOCK: usize = 16;
 /// Rays that are counted.
 const COUNTED: usize = 2048;
 
@@ -33,7 +35,8 @@ pub(super) struct Taken {
     /// Per ray, over the first rays.
     pub(super) steps: f64,
     pub(super) tests: f64,
-    pub(super) answers: Answers,
+    /// Answers unlike those of the fastest.
+    pub(super) differ: usize,
 }
 
 /// Lets all worlds shoot `rounds` times, in turns, on this thread.
@@ -43,12 +46,13 @@ pub(super) fn run(
     rounds: usize,
 ) -> Result<Vec<Taken>, Failure> {
     let fit: Vec<usize> = worlds.iter().map(|world| fit(world, set)).collect();
+    let picked: Vec<Vec<Ray>> = fit.iter().map(|&count| spread(&set.rays, count, BLOCK)).collect();
     let mut times = vec![(Vec::new(), Vec::new()); worlds.len()];
     let mut answers = vec![Answers::Hits(Vec::new()); worlds.len()];
     for _ in 0..rounds {
         for (i, world) in worlds.iter().enumerate() {
             stop::check()?;
-            let rays = &set.rays[..fit[i]];
+            let rays = &picked[i];
             let begun = Instant::now();
             answers[i] = batch(world, rays, set.any);
             times[i].0.push(begun.elapsed().as_secs_f64());
@@ -61,23 +65,35 @@ pub(super) fn run(
             }
         }
     }
-    let taken = worlds.iter().zip(fit).zip(times).zip(answers);
+    // The fastest has answers for the most rays.
+    let fastest = (0..worlds.len()).max_by_key(|&i| picked[i].len()).unwrap_or(0);
+    let all = batch(&worlds[fastest], &set.rays, set.any);
+    let taken = worlds.iter().zip(fit.iter().zip(picked)).zip(times).zip(answers);
     Ok(taken
-        .map(|(((world, rays), (mut batch, mut single)), answers)| {
-            let (steps, tests) = count(world, &set.rays[..rays.min(COUNTED)], set.any);
-            let nanos = |times: &mut Vec<f64>| median(times) * 1e9 / rays.max(1) as f64;
+        .map(|(((world, (&asked, rays)), (mut batch, mut single)), answers)| {
+            let (steps, tests) = count(world, &spread(&rays, COUNTED, 1), set.any);
+            let nanos = |times: &mut Vec<f64>| median(times) * 1e9 / rays.len().max(1) as f64;
             let (batch, single) = (nanos(&mut batch), nanos(&mut single));
-            Taken { rays, batch, single, steps, tests, answers }
+            let differ = answers.differences(&all.spread(asked));
+            Taken { rays: rays.len(), batch, single, steps, tests, differ }
         })
         .collect())
+}
+
+/// About `count` of `all`, in blocks of neighbours that are spread evenly.
+fn spread<T: Copy>(all: &[T], count: usize, block: usize) -> Vec<T> {
+    let blocks = all.len().div_ceil(block);
+    let step = all.len().div_ceil(count.max(1)).min(blocks).max(1);
+    all.chunks(block).step_by(step).flatten().copied().collect()
 }
 
 /// How many of the rays a world shoots in a turn.
 fn fit(world: &DynObject, set: &RaySet) -> usize {
     let mut count = FIRST.min(set.rays.len());
     loop {
+        let rays = spread(&set.rays, count, BLOCK);
         let begun = Instant::now();
-        batch(world, &set.rays[..count], set.any);
+        batch(world, &rays, set.any);
         let spent = begun.elapsed();
         if count == set.rays.len() || spent * 2 > TURN {
             return count;
@@ -132,6 +148,14 @@ fn count(world: &DynObject, rays: &[Ray], any: bool) -> (f64, f64) {
 }
 
 impl Answers {
+    /// Those of [`spread`] rays.
+    fn spread(&self, count: usize) -> Self {
+        match self {
+            Self::Hits(hits) => Self::Hits(spread(hits, count, BLOCK)),
+            Self::Blocked(blocked) => Self::Blocked(spread(blocked, count, BLOCK)),
+        }
+    }
+
     /// How many of the answers that both have are not the same.
     pub(super) fn differences(&self, other: &Self) -> usize {
         match (self, other) {
