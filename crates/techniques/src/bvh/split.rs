@@ -4,7 +4,7 @@ use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use rayon::prelude::*;
 
-use super::build::Children;
+use crate::wide_tree::Contents;
 
 /// "Bins up to `last` go left", along one axis.
 pub(super) struct Plane {
@@ -26,7 +26,7 @@ impl Plane {
 pub(super) const SHARED: usize = 16_384;
 
 /// The plane with the least `area × Σ weights` on both sides, if any separates.
-pub(super) fn best_plane(most_bins: usize, of: &Children, children: &[u32]) -> Option<Plane> {
+pub(super) fn best_plane(most_bins: usize, of: &Contents, children: &[u32]) -> Option<Plane> {
     match children.len() {
         ..16 => best_of::<8>(8, of, children),
         16..128 => best_of::<16>(16, of, children),
@@ -36,7 +36,7 @@ pub(super) fn best_plane(most_bins: usize, of: &Children, children: &[u32]) -> O
 
 /// The best of `bins` planes along each axis.
 #[inline(never)] // its tables must not lie on the stack of every level
-fn best_of<const MOST: usize>(bins: usize, of: &Children, children: &[u32]) -> Option<Plane> {
+fn best_of<const MOST: usize>(bins: usize, of: &Contents, children: &[u32]) -> Option<Plane> {
     let centers = centers(of, children);
     let size = centers.size();
     let scale = Vec3A::splat(bins as f32 * 0.9999) / size.max(Vec3A::splat(f32::MIN_POSITIVE));
@@ -69,7 +69,7 @@ fn best_of<const MOST: usize>(bins: usize, of: &Children, children: &[u32]) -> O
 }
 
 /// A box around the centres.
-fn centers(of: &Children, children: &[u32]) -> Aabb {
+fn centers(of: &Contents, children: &[u32]) -> Aabb {
     let around = |part: &[u32]| part.iter().fold(Aabb::EMPTY, |all, &c| all.with(of.center(c)));
     if children.len() <= SHARED {
         return around(children);
@@ -81,7 +81,7 @@ type Bins<const MOST: usize> = [[Bin; MOST]; 3];
 
 /// The bins of all children. Parts are added up in order: the same for any number of threads.
 fn filled<const MOST: usize>(
-    of: &Children,
+    of: &Contents,
     children: &[u32],
     place: &(impl Fn(Vec3A) -> [usize; 3] + Sync),
 ) -> Bins<MOST> {

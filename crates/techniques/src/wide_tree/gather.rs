@@ -7,7 +7,7 @@ use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::simd::Simd;
 use nestray_core::trail::{self, DONE, Trail};
 
-use super::{BvhIndex, Node};
+use super::{Node, WideTree};
 
 /// The bundle's part of the box tests.
 struct Pencil {
@@ -81,7 +81,7 @@ fn inner(node: &Node) -> u32 {
     (0..8).fold(0, |mask, lane| mask | (!node.words[lane] >> 31) << lane)
 }
 
-impl BvhIndex {
+impl<B> WideTree<B> {
     /// See [`gather`](nestray_core::technique::Technique::gather).
     #[inline(always)]
     pub(super) fn gather_nodes<S: Simd>(

@@ -2,12 +2,39 @@
 
 use nestray_core::technique::{Leaves, Step};
 
-use super::build::Binary;
-use super::{BvhParams, Node};
+use super::binary::Binary;
+use super::{LeafSize, Node};
+
+/// Deepest tree a [`Trail`](nestray_core::trail::Trail) has room for.
+const MAX_DEPTH: usize = 34;
+
+/// From which depth on a binary tree is split in halves: the first that makes the wide one
+/// shallow enough is taken.
+const HALVES_FROM: [usize; 3] = [96, 24, 0];
+
+/// The wide nodes of the tree that `build` makes.
+pub(super) fn collapsed<'a>(
+    size: LeafSize,
+    leaves: &mut Leaves,
+    build: impl Fn(usize) -> Binary<'a>,
+) -> Vec<Node> {
+    for halves_from in HALVES_FROM {
+        let binary = build(halves_from);
+        let forests = Forests::new(size, &binary);
+        let mut out =
+            Emit { binary: &binary, forests: &forests, nodes: Vec::new(), leaves, depth: 0 };
+        if forests.depth(&binary) <= MAX_DEPTH {
+            out.emit(0, 0);
+            assert!(out.depth <= MAX_DEPTH, "depth and what is emitted agree");
+            return out.nodes;
+        }
+    }
+    unreachable!("a tree split in halves is shallow")
+}
 
 /// How best to cut each binary subtree into at most 1, 2, … 8 wide ones, by dynamic
 /// programming [Ylitie 17].
-pub(super) struct Forests {
+struct Forests {
     /// Cost of a subtree as at most `j + 1` parts.
     cost: Vec<[f32; 8]>,
     /// How many of those parts the left side gets; [`LEAF`], [`NODE`] or [`FEWER`].
@@ -19,12 +46,12 @@ const FEWER: u8 = 254;
 const NODE: u8 = 255;
 
 impl Forests {
-    pub(super) fn new(params: &BvhParams, binary: &Binary<'_>) -> Self {
+    fn new(size: LeafSize, binary: &Binary<'_>) -> Self {
         let count = binary.pairs.len();
         let mut forests = Self { cost: vec![[0.0; 8]; count], cut: vec![[LEAF; 8]; count] };
         // Children come after their parents.
         for (i, pair) in binary.pairs.iter().enumerate().rev() {
-            let leaf = pair.bounds.surface_area() * binary.of.leaf_cost(params, binary.below(pair));
+            let leaf = pair.bounds.surface_area() * binary.of.leaf_cost(size, binary.below(pair));
             if pair.left == 0 {
                 forests.cost[i] = [leaf; 8];
                 continue;
@@ -39,7 +66,7 @@ impl Forests {
                 (cost[parts - 1], cut[parts - 1]) = best;
             }
             let node = pair.bounds.surface_area() + cost[7];
-            let fits = pair.count as usize <= params.max_leaf;
+            let fits = pair.count as usize <= size.most;
             (cost[0], cut[0]) = if fits && leaf <= node { (leaf, LEAF) } else { (node, NODE) };
             for parts in 1..8 {
                 if cost[parts - 1] < cost[parts] {
@@ -87,7 +114,7 @@ impl Forests {
         self.cut[i as usize][0] == LEAF
     }
 
-    pub(super) fn depth(&self, binary: &Binary<'_>) -> usize {
+    fn depth(&self, binary: &Binary<'_>) -> usize {
         let mut deepest = 0;
         let mut open = vec![(0, 1)];
         while let Some((i, depth)) = open.pop() {
@@ -100,17 +127,17 @@ impl Forests {
 }
 
 /// Writes the wide nodes, each before its subtrees.
-pub(super) struct Emit<'a> {
-    pub(super) binary: &'a Binary<'a>,
-    pub(super) forests: &'a Forests,
-    pub(super) nodes: Vec<Node>,
-    pub(super) leaves: &'a mut Leaves,
+struct Emit<'a> {
+    binary: &'a Binary<'a>,
+    forests: &'a Forests,
+    nodes: Vec<Node>,
+    leaves: &'a mut Leaves,
     /// The deepest node so far.
-    pub(super) depth: usize,
+    depth: usize,
 }
 
 impl Emit<'_> {
-    pub(super) fn emit(&mut self, i: u32, depth: usize) -> u32 {
+    fn emit(&mut self, i: u32, depth: usize) -> u32 {
         self.depth = self.depth.max(depth);
         let me = self.nodes.len();
         let mut node = Node { rows: [[0.0; 8]; 6], words: [0; 8], spare: [0; 8] };

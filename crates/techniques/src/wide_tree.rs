@@ -1,0 +1,216 @@
+//! A tree of boxes, eight children to a node [Wald 08], whoever built it.
+//!
+//! Builders differ in how they put children together; what they make is a binary tree. It is cut
+//! into nodes of eight here, and all go through it alike.
+
+mod binary;
+mod collapse;
+mod gather;
+mod kernel;
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+
+use nestray_core::aabb::Aabb;
+use nestray_core::bundle::{Bundle, Entrance};
+use nestray_core::family::Family;
+use nestray_core::huge::Huge;
+use nestray_core::simd::Simd;
+use nestray_core::technique::{
+    Expected, Leaf, Leaves, Params, Query, Repeats, Step, Technique, Walk,
+};
+use nestray_core::trail::{self, Trail};
+
+pub use self::binary::{Binary, Contents, Pair, area, in_halves};
+pub use self::kernel::Cursor;
+
+/// A tree of boxes, eight to a node, as put together by `B`.
+#[derive(Debug)]
+pub struct WideTree<B> {
+    nodes: Huge<Node>,
+    /// Largest coordinate of the boxes, which rounding errors are relative to.
+    reach: f32,
+    builder: PhantomData<fn() -> B>,
+}
+
+/// A way of putting children together in pairs.
+pub trait Builder: Debug + 'static {
+    /// [`Technique::NAME`] of its trees.
+    const NAME: &'static str;
+
+    /// Its settings.
+    type Params: Params;
+
+    /// How large leaves are.
+    fn leaf_size(params: &Self::Params) -> LeafSize;
+
+    /// Puts children together. Below `halves_from` levels it splits in halves, so that no input
+    /// makes the tree deep.
+    fn build<'a>(params: &Self::Params, of: &'a Contents, halves_from: usize) -> Binary<'a>;
+}
+
+/// How many children a leaf may have, and what it costs.
+#[derive(Clone, Copy, Debug)]
+pub struct LeafSize {
+    /// Most children.
+    pub most: usize,
+    /// What testing a packed leaf costs, in visits of a node.
+    pub cost: f32,
+}
+
+/// The boxes of eight children and what they are. Children that are missing have an
+/// empty box. The largest child is last, where a search for any hit looks first.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Node {
+    /// Lower x of all, upper x, lower y, …
+    rows: [[f32; 8]; 6],
+    /// A [`Step`] each.
+    words: [u32; 8],
+    /// Keeps nodes at four cache lines.
+    spare: [u32; 8],
+}
+
+impl<B> WideTree<B> {
+    /// All nodes, root first, each with the boxes that are there and what is in them; for
+    /// reports and viewers.
+    pub fn nodes(&self) -> impl Iterator<Item = Vec<(Aabb, Step)>> + '_ {
+        self.nodes.iter().map(|node| {
+            (0..8)
+                .map(|lane| (node.bounds(lane), Step::from_word(node.words[lane])))
+                .filter(|(bounds, _)| bounds.is_bounded())
+                .collect()
+        })
+    }
+}
+
+impl<B: Builder> Technique for WideTree<B> {
+    const NAME: &'static str = B::NAME;
+    const REPEATS: Repeats = Repeats::Never;
+    const GATHERS: bool = true;
+    type Params = B::Params;
+    type Cursor = Cursor;
+
+    fn build(params: &B::Params, family: &dyn Family, leaves: &mut Leaves) -> Self {
+        let of = Contents::new(family);
+        let nodes = collapse::collapsed(B::leaf_size(params), leaves, |halves_from| {
+            B::build(params, &of, halves_from)
+        });
+        let reach = of.boxes.iter().fold(0f32, |reach, bounds| reach.max(bounds.reach()));
+        Self { nodes: Huge::new(&nodes, 0), reach, builder: PhantomData }
+    }
+
+    /// A node is visited as often as its surface is to the root's [Goldsmith 87].
+    fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {
+        let mut tests = vec![0.0; family.count() as usize];
+        let mut steps = 0.0;
+        let root = (0..8).map(|lane| self.nodes[0].bounds(lane)).reduce(|a, b| a.join(b));
+        let whole = root.map_or(1.0, |b| b.surface_area().max(f32::MIN_POSITIVE));
+        for node in &*self.nodes {
+            let mut bounds = Aabb::EMPTY;
+            for lane in 0..8 {
+                let part = node.bounds(lane);
+                bounds = bounds.join(part);
+                let word = Step::from_word(node.words[lane]);
+                if !word.is_onward() && part.is_bounded() {
+                    for &child in leaves.of(word.as_leaf().0 as usize) {
+                        tests[child as usize] += (part.surface_area() / whole).min(1.0);
+                    }
+                }
+            }
+            steps += f64::from((bounds.surface_area() / whole).min(1.0));
+        }
+        Expected { steps, tests }
+    }
+
+    fn rename_leaves(&mut self, leaves: &[Leaf]) {
+        let mut nodes = self.nodes.to_vec();
+        for word in nodes.iter_mut().flat_map(|node| &mut node.words) {
+            let step = Step::from_word(*word);
+            if !step.is_onward() {
+                *word = Step::leaf(leaves[step.as_leaf().0 as usize]).word();
+            }
+        }
+        self.nodes = Huge::new(&nodes, 0);
+    }
+
+    fn bytes(&self) -> u64 {
+        size_of_val::<[Node]>(&self.nodes) as u64
+    }
+
+    #[inline(always)]
+    fn start<S: Simd>(&self, _simd: S, walk: &mut Walk<'_>, _limit: f32) -> (Cursor, Step) {
+        (Cursor::new(walk.ray, self.reach, walk.trail.reset()), Step::onward(0))
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd>(
+        &self,
+        simd: S,
+        bundle: &Bundle,
+        trail: &mut Trail,
+        entrance: &mut Entrance,
+    ) -> bool {
+        self.gather_nodes(simd, bundle, trail, entrance)
+    }
+
+    #[inline(always)]
+    fn start_at<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        limit: f32,
+        entrance: &Entrance,
+    ) -> (Cursor, Step) {
+        let mut cursor = Cursor::new(walk.ray, self.reach, walk.trail.reset());
+        for block in entrance.blocks().iter().rev() {
+            let (mask, enter) = cursor.clip(simd, &block.rows, limit);
+            trail::put_off_all(simd, walk.trail, &mut cursor.top, mask, enter, &block.words);
+        }
+        let at = self.resume::<S, Q>(simd, walk, &mut cursor, limit);
+        (cursor, at)
+    }
+
+    #[inline(always)]
+    fn step<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        cursor: &mut Cursor,
+        at: Step,
+        limit: f32,
+    ) -> Step {
+        let node = &self.nodes[at.word() as usize];
+        let (mask, enter) = node.clip(simd, cursor, limit);
+        let (trail, top, words) = (&mut *walk.trail, &mut cursor.top, &node.words);
+        Step::from_word(match (Q::MANY, Q::ANY) {
+            (true, true) => simd.turn(trail, top, mask, words),
+            (true, false) => simd.turn_sorted(trail, top, mask, enter, words, limit),
+            // One ray: the three cases are worth a branch each.
+            (false, _) if mask == 0 => return self.resume::<S, Q>(simd, walk, cursor, limit),
+            (false, _) if mask & (mask - 1) == 0 => words[mask.trailing_zeros() as usize & 7],
+            (false, true) => simd.put_off(trail, top, mask, words),
+            (false, false) => simd.put_off_sorted(trail, top, mask, enter, words),
+        })
+    }
+
+    #[inline(always)]
+    fn resume<S: Simd, Q: Query>(
+        &self,
+        simd: S,
+        walk: &mut Walk<'_>,
+        cursor: &mut Cursor,
+        limit: f32,
+    ) -> Step {
+        Step::from_word(match (Q::MANY, Q::ANY) {
+            (_, true) => trail::take_last(walk.trail, &mut cursor.top),
+            (true, false) => simd.take(walk.trail, &mut cursor.top, limit),
+            (false, false) => trail::take(walk.trail, &mut cursor.top, limit),
+        })
+    }
+
+    #[inline(always)]
+    fn address(&self, _cursor: &Cursor, at: Step) -> *const u8 {
+        self.nodes.as_ptr().wrapping_add(at.word() as usize).cast()
+    }
+}
