@@ -89,7 +89,13 @@ impl Default for CostModel {
             call: 15.0,
             transform: 20.0,
             primitive: named(&[("triangle", 3.0)]),
-            step: named(&[("bvh", 10.0), ("goldsmith-salmon", 10.0), ("grid", 4.0), ("list", 0.0)]),
+            step: named(&[
+                ("bvh", 10.0),
+                ("goldsmith-salmon", 10.0),
+                ("grid", 4.0),
+                ("list", 0.0),
+                ("ploc", 10.0),
+            ]),
             kind: None,
         }
     }
