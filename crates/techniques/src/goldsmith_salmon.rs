@@ -99,3 +99,27 @@ impl Builder for Insertion {
         Binary::merged(of, &tree.merges(), halves_from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counted::{expected_and_counted, spheres};
+
+    #[test]
+    fn random_lines_do_what_is_expected() {
+        let params = GoldsmithSalmonParams::default();
+        let both = expected_and_counted::<GoldsmithSalmonIndex>(&params, &spheres(500, 1), 2);
+        for [expected, counted] in both {
+            assert!((counted / expected - 1.0).abs() < 0.03, "{counted} for {expected}");
+        }
+    }
+
+    #[test]
+    fn more_tries_are_not_dearer() {
+        let cost = |tries| {
+            let params = GoldsmithSalmonParams { tries, ..Default::default() };
+            expected_and_counted::<GoldsmithSalmonIndex>(&params, &spheres(100, 1), 2)[0][0]
+        };
+        assert!(cost(16) <= 1.05 * cost(1), "{} {}", cost(16), cost(1));
+    }
+}

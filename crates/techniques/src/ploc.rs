@@ -65,3 +65,17 @@ impl Builder for Clustering {
         Binary::merged(of, &merge::merges(of, params.window), halves_from)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counted::{expected_and_counted, spheres};
+
+    #[test]
+    fn random_lines_do_what_is_expected() {
+        let params = PlocParams::default();
+        for [expected, counted] in expected_and_counted::<PlocIndex>(&params, &spheres(500, 1), 2) {
+            assert!((counted / expected - 1.0).abs() < 0.03, "{counted} for {expected}");
+        }
+    }
+}

@@ -19,7 +19,7 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{
     Expected, Leaf, Leaves, Params, Query, Repeats, Step, Technique, Walk,
 };
-use nestray_core::trail::{self, Trail};
+use nestray_core::trail::{self, Top, Trail};
 
 pub use self::binary::{Binary, Contents, Pair, area, in_halves};
 pub use self::kernel::Cursor;
@@ -67,11 +67,56 @@ struct Node {
     rows: [[f32; 8]; 6],
     /// A [`Step`] each.
     words: [u32; 8],
-    /// Keeps nodes at four cache lines.
+    /// Room for a word about the node, which keeps nodes at four cache lines.
     spare: [u32; 8],
 }
 
 impl<B> WideTree<B> {
+    /// Where a ray begins.
+    #[inline(always)]
+    pub(crate) fn cursor(&self, walk: &mut Walk<'_>) -> Cursor {
+        Cursor::new(walk.ray, self.reach, walk.trail.reset())
+    }
+
+    /// What the lanes of a node are.
+    #[inline(always)]
+    pub(crate) fn words(&self, at: Step) -> &[u32; 8] {
+        &self.nodes[at.word() as usize].words
+    }
+
+    /// A word about a node; 0 if there is none.
+    #[inline(always)]
+    pub(crate) fn note(&self, at: Step) -> u32 {
+        self.nodes[at.word() as usize].spare[0]
+    }
+
+    /// The same tree with a word about each node.
+    pub(crate) fn with_notes(mut self, notes: &[u32]) -> Self {
+        let mut nodes = self.nodes.to_vec();
+        for (node, &note) in nodes.iter_mut().zip(notes) {
+            node.spare[0] = note;
+        }
+        self.nodes = Huge::new(&nodes, 0);
+        self
+    }
+
+    /// Where a ray enters and leaves the boxes of a node, up to `limit`.
+    #[inline(always)]
+    pub(crate) fn cut<S: Simd>(
+        &self,
+        simd: S,
+        cursor: &Cursor,
+        at: Step,
+        limit: f32,
+    ) -> (S::F32, S::F32) {
+        cursor.cut(simd, &self.nodes[at.word() as usize].rows, limit)
+    }
+
+    /// The largest coordinate of all boxes.
+    pub(crate) fn reach(&self) -> f32 {
+        self.reach
+    }
+
     /// All nodes, root first, each with the boxes that are there and what is in them; for
     /// reports and viewers.
     pub fn nodes(&self) -> impl Iterator<Item = Vec<(Aabb, Step)>> + '_ {
@@ -182,16 +227,7 @@ impl<B: Builder> Technique for WideTree<B> {
     ) -> Step {
         let node = &self.nodes[at.word() as usize];
         let (mask, enter) = node.clip(simd, cursor, limit);
-        let (trail, top, words) = (&mut *walk.trail, &mut cursor.top, &node.words);
-        Step::from_word(match (Q::MANY, Q::ANY) {
-            (true, true) => simd.turn(trail, top, mask, words),
-            (true, false) => simd.turn_sorted(trail, top, mask, enter, words, limit),
-            // One ray: the three cases are worth a branch each.
-            (false, _) if mask == 0 => return self.resume::<S, Q>(simd, walk, cursor, limit),
-            (false, _) if mask & (mask - 1) == 0 => words[mask.trailing_zeros() as usize & 7],
-            (false, true) => simd.put_off(trail, top, mask, words),
-            (false, false) => simd.put_off_sorted(trail, top, mask, enter, words),
-        })
+        turn::<S, Q>(simd, walk.trail, &mut cursor.top, mask, enter, &node.words, limit)
     }
 
     #[inline(always)]
@@ -202,15 +238,43 @@ impl<B: Builder> Technique for WideTree<B> {
         cursor: &mut Cursor,
         limit: f32,
     ) -> Step {
-        Step::from_word(match (Q::MANY, Q::ANY) {
-            (_, true) => trail::take_last(walk.trail, &mut cursor.top),
-            (true, false) => simd.take(walk.trail, &mut cursor.top, limit),
-            (false, false) => trail::take(walk.trail, &mut cursor.top, limit),
-        })
+        next::<S, Q>(simd, walk.trail, &mut cursor.top, limit)
     }
 
     #[inline(always)]
     fn address(&self, _cursor: &Cursor, at: Step) -> *const u8 {
         self.nodes.as_ptr().wrapping_add(at.word() as usize).cast()
     }
+}
+
+/// Goes on to the nearest of the lanes in `mask`, which begin at `enter`, and puts off the rest.
+#[inline(always)]
+pub(crate) fn turn<S: Simd, Q: Query>(
+    simd: S,
+    trail: &mut Trail,
+    top: &mut Top,
+    mask: u32,
+    enter: S::F32,
+    words: &[u32; 8],
+    limit: f32,
+) -> Step {
+    Step::from_word(match (Q::MANY, Q::ANY) {
+        (true, true) => simd.turn(trail, top, mask, words),
+        (true, false) => simd.turn_sorted(trail, top, mask, enter, words, limit),
+        // One ray: the three cases are worth a branch each.
+        (false, _) if mask == 0 => return next::<S, Q>(simd, trail, top, limit),
+        (false, _) if mask & (mask - 1) == 0 => words[mask.trailing_zeros() as usize & 7],
+        (false, true) => simd.put_off(trail, top, mask, words),
+        (false, false) => simd.put_off_sorted(trail, top, mask, enter, words),
+    })
+}
+
+/// Goes on to what was put off last, of all that begins within `limit`.
+#[inline(always)]
+pub(crate) fn next<S: Simd, Q: Query>(simd: S, trail: &Trail, top: &mut Top, limit: f32) -> Step {
+    Step::from_word(match (Q::MANY, Q::ANY) {
+        (_, true) => trail::take_last(trail, top),
+        (true, false) => simd.take(trail, top, limit),
+        (false, false) => trail::take(trail, top, limit),
+    })
 }

@@ -1,0 +1,81 @@
+//! Tests: what random lines do, beside what a technique expects of them.
+
+use std::sync::Arc;
+
+use glam::Vec3A;
+use nestray_core::aabb::{Aabb, Clip};
+use nestray_core::accel::Accel;
+use nestray_core::object::{DynObject, Object};
+use nestray_core::ray::{Ray, RayKind};
+use nestray_core::scratch::Scratch;
+use nestray_core::technique::Technique;
+use nestray_shapes::any::AnyShape;
+use nestray_shapes::shape::Single;
+use nestray_shapes::sphere::Sphere;
+
+/// Random numbers in `[0, 1)`.
+pub(crate) struct Numbers(pub(crate) u64);
+
+impl Numbers {
+    pub(crate) fn next(&mut self) -> f32 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f32 / (1 << 24) as f32
+    }
+
+    pub(crate) fn point(&mut self) -> Vec3A {
+        Vec3A::new(self.next(), self.next(), self.next())
+    }
+
+    fn direction(&mut self) -> Vec3A {
+        loop {
+            let dir = self.point() * 2.0 - 1.0;
+            if (0.01..=1.0).contains(&dir.length()) {
+                return dir.normalize();
+            }
+        }
+    }
+
+    /// A line such that all that meet `bounds` are as likely.
+    fn line(&mut self, bounds: &Aabb) -> Ray {
+        let radius = 0.51 * bounds.size().length();
+        loop {
+            let dir = self.direction();
+            let (u, v) = dir.any_orthonormal_pair();
+            let at = (u * (self.next() * 2.0 - 1.0) + v * (self.next() * 2.0 - 1.0)) * radius;
+            let ray = Ray::new(bounds.center() + at - dir * (2.0 * radius), dir, RayKind::Camera);
+            if Clip::new(&ray, bounds.reach()).cut(bounds, f32::INFINITY).is_some() {
+                return ray;
+            }
+        }
+    }
+}
+
+/// Says what lines are expected to do and do: steps, then tests.
+pub(crate) fn expected_and_counted<T: Technique>(
+    params: &T::Params,
+    shapes: &[AnyShape],
+    seed: u64,
+) -> [[f64; 2]; 2] {
+    const LINES: u32 = 20_000;
+    let object = |shape: &AnyShape| Arc::new(Single::new(0, shape.clone())) as DynObject;
+    let nest = Accel::<T, Vec<DynObject>>::new(params.clone(), shapes.iter().map(object).collect());
+    let (mut numbers, mut scratch) = (Numbers(seed), Scratch::counting());
+    for _ in 0..LINES {
+        nest.all_hits(&numbers.line(&nest.bounds()), &mut Vec::new(), &mut scratch);
+    }
+    let total = scratch.counters.total();
+    let each = |count: u64| count as f64 / f64::from(LINES);
+    let tests = nest.expected().tests.iter().map(|&tests| f64::from(tests)).sum();
+    [[nest.expected().steps, each(total.all_steps())], [tests, each(total.all_tests())]]
+}
+
+/// Spheres of two sizes all over the place.
+pub(crate) fn spheres(count: u32, seed: u64) -> Vec<AnyShape> {
+    let mut numbers = Numbers(seed);
+    let one = |i: u32| Sphere {
+        center: numbers.point() * 10.0,
+        radius: if i.is_multiple_of(10) { 0.6 } else { 0.1 },
+    };
+    (0..count).map(one).map(AnyShape::from).collect()
+}
