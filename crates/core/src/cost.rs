@@ -95,6 +95,7 @@ impl Default for CostModel {
                 ("grid", 4.0),
                 ("list", 0.0),
                 ("ploc", 10.0),
+                ("rubin-whitted", 12.0),
                 ("slabs", 14.0),
             ]),
             kind: None,
