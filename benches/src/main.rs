@@ -108,12 +108,11 @@ fn exhaustive(positions: &[[f32; 3]], faces: &[[u32; 3]], ray: &Ray) -> f64 {
 /// One ray through the middle of each pixel, line by line.
 fn primary(scene: &Scene, side: usize) -> Vec<Ray> {
     let view = scene.cameras.first().cloned().unwrap_or_default().view(1.0);
+    let side = side as u32;
+    let through = |i: u32| view.through([i % side, i / side], [side; 2]);
     (0..side * side)
-        .map(|i| {
-            let at = |i: usize| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
-            let (origin, dir) = view.ray(at(i % side), -at(i / side), [0.0; 2]);
-            Ray::new(origin, dir, RayKind::Camera)
-        })
+        .map(through)
+        .map(|(origin, dir)| Ray::new(origin, dir, RayKind::Camera))
         .collect()
 }
 

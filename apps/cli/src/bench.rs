@@ -1,7 +1,7 @@
 //! `nestray bench`: plans against each other on one scene.
 
 mod contest;
-mod rays;
+pub(crate) mod rays;
 
 use std::fmt::Write as _;
 use std::time::Instant;

@@ -23,6 +23,7 @@ use crate::args::{DemoArgs, Talk};
 use crate::errors::Failure;
 use crate::input::{self, Choice};
 use crate::progress::{Progress, Watching, rate};
+use crate::render::settings::WHITES;
 use crate::stats::{self, Stats};
 use crate::{output, stop};
 
@@ -83,6 +84,7 @@ fn paint(scene: &Scene, world: &DynObject, clock: &Clock) -> Result<Painted, Fai
     let options = Options {
         resolution: RESOLUTION,
         integrator: Integrator::Path,
+        clamp: Some(WHITES),
         layers: false,
         ..Options::default()
     };

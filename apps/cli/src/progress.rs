@@ -61,9 +61,8 @@ impl Progress {
     /// Watches one stage of the work.
     pub(crate) fn watch(self, stage: &str) -> Watching {
         let bar = (self.mode == Mode::Bar).then(|| {
-            let style = ProgressStyle::with_template(
-                "{prefix} [{bar:40}] {percent:>3} %  {msg}  {eta} left",
-            );
+            let style =
+                ProgressStyle::with_template("{prefix} [{bar:40}] {percent:>3} %  {msg}{eta} left");
             let bar = ProgressBar::new(0).with_prefix(stage.to_owned());
             bar.set_style(
                 style.expect("it is written as indicatif wants it").progress_chars("=> "),
@@ -107,7 +106,7 @@ impl Watch for Watching {
         }
         *said = Instant::now();
         let seconds = self.begun.elapsed().as_secs_f64();
-        let rate = rate(rays, seconds);
+        let rate = if rays > 0 { format!("{}, ", rate(rays, seconds)) } else { String::new() };
         match (self.mode, &self.bar) {
             (Mode::Bar, Some(bar)) => {
                 bar.set_length(total);
@@ -123,7 +122,7 @@ impl Watch for Watching {
                 let part = done as f64 / total.max(1) as f64;
                 let left = seconds / part.max(1e-9) * (1.0 - part);
                 let percent = 100.0 * part;
-                say(&format!("nestray: {} {percent:.0} %, {rate}, {left:.0} s left", self.stage));
+                say(&format!("nestray: {} {percent:.0} %, {rate}{left:.0} s left", self.stage));
             }
         }
     }

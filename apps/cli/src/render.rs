@@ -1,6 +1,6 @@
 //! `nestray render`.
 
-mod settings;
+pub(crate) mod settings;
 
 use std::path::{Path, PathBuf};
 

@@ -119,6 +119,15 @@ impl Camera {
 }
 
 impl View {
+    /// Origin and direction of the ray through the middle of a pixel, counted from the top left,
+    /// of a picture so many pixels wide and high; through the middle of the lens.
+    #[must_use]
+    pub fn through(&self, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> (Vec3A, Vec3A) {
+        let across = (x as f32 + 0.5) / width as f32 * 2.0 - 1.0;
+        let up = 1.0 - (y as f32 + 0.5) / height as f32 * 2.0;
+        self.ray(across, up, [0.0; 2])
+    }
+
     /// Origin and direction of the ray through a point of the picture: `x` from −1 (left) to 1,
     /// `y` from −1 (bottom) to 1, through a point of the lens, a disk of radius 1. The
     /// direction of a pinhole's rays has length 1 along the view.

@@ -162,12 +162,7 @@ impl<R: Rule> Technique for CellsIndex<R> {
     }
 
     fn rename_leaves(&mut self, leaves: &[Leaf]) {
-        let rename = |word: &mut u32| {
-            let step = Step::from_word(*word);
-            if !step.is_onward() && !step.is_done() {
-                *word = Step::leaf(leaves[step.as_leaf().0 as usize]).word();
-            }
-        };
+        let rename = |word: &mut u32| *word = Step::from_word(*word).renamed(leaves).word();
         let mut nodes = self.nodes.to_vec();
         nodes.iter_mut().flat_map(|node| &mut node.words).for_each(rename);
         rename(&mut self.root);

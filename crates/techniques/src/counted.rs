@@ -12,22 +12,27 @@ use nestray_core::technique::Technique;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::sphere::Sphere;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
-/// Random numbers in `[0, 1)`.
-pub(crate) struct Numbers(pub(crate) u64);
+/// Random numbers, the same for the same seed.
+pub(crate) struct Numbers(Pcg64Mcg);
 
 impl Numbers {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(Pcg64Mcg::seed_from_u64(seed))
+    }
+
+    /// In `[0, 1)`.
     pub(crate) fn next(&mut self) -> f32 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f32 / (1 << 24) as f32
+        self.0.random()
     }
 
     pub(crate) fn point(&mut self) -> Vec3A {
         Vec3A::new(self.next(), self.next(), self.next())
     }
 
-    fn direction(&mut self) -> Vec3A {
+    pub(crate) fn direction(&mut self) -> Vec3A {
         loop {
             let dir = self.point() * 2.0 - 1.0;
             if (0.01..=1.0).contains(&dir.length()) {
@@ -60,7 +65,7 @@ pub(crate) fn expected_and_counted<T: Technique>(
     const LINES: u32 = 20_000;
     let object = |shape: &AnyShape| Arc::new(Single::new(0, shape.clone())) as DynObject;
     let nest = Accel::<T, Vec<DynObject>>::new(params.clone(), shapes.iter().map(object).collect());
-    let (mut numbers, mut scratch) = (Numbers(seed), Scratch::counting());
+    let (mut numbers, mut scratch) = (Numbers::new(seed), Scratch::counting());
     for _ in 0..LINES {
         nest.all_hits(&numbers.line(&nest.bounds()), &mut Vec::new(), &mut scratch);
     }
@@ -72,7 +77,7 @@ pub(crate) fn expected_and_counted<T: Technique>(
 
 /// Spheres of two sizes all over the place.
 pub(crate) fn spheres(count: u32, seed: u64) -> Vec<AnyShape> {
-    let mut numbers = Numbers(seed);
+    let mut numbers = Numbers::new(seed);
     let one = |i: u32| Sphere {
         center: numbers.point() * 10.0,
         radius: if i.is_multiple_of(10) { 0.6 } else { 0.1 },

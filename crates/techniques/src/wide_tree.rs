@@ -171,10 +171,7 @@ impl<B: Builder> Technique for WideTree<B> {
     fn rename_leaves(&mut self, leaves: &[Leaf]) {
         let mut nodes = self.nodes.to_vec();
         for word in nodes.iter_mut().flat_map(|node| &mut node.words) {
-            let step = Step::from_word(*word);
-            if !step.is_onward() {
-                *word = Step::leaf(leaves[step.as_leaf().0 as usize]).word();
-            }
+            *word = Step::from_word(*word).renamed(leaves).word();
         }
         self.nodes = Huge::new(&nodes, 0);
     }
@@ -185,7 +182,7 @@ impl<B: Builder> Technique for WideTree<B> {
 
     #[inline(always)]
     fn start<S: Simd>(&self, _simd: S, walk: &mut Walk<'_>, _limit: f32) -> (Cursor, Step) {
-        (Cursor::new(walk.ray, self.reach, walk.trail.reset()), Step::onward(0))
+        (self.cursor(walk), Step::onward(0))
     }
 
     #[inline(always)]
@@ -207,7 +204,7 @@ impl<B: Builder> Technique for WideTree<B> {
         limit: f32,
         entrance: &Entrance,
     ) -> (Cursor, Step) {
-        let mut cursor = Cursor::new(walk.ray, self.reach, walk.trail.reset());
+        let mut cursor = self.cursor(walk);
         for block in entrance.blocks().iter().rev() {
             let (mask, enter) = cursor.clip(simd, &block.rows, limit);
             trail::put_off_all(simd, walk.trail, &mut cursor.top, mask, enter, &block.words);

@@ -32,7 +32,7 @@ pub(super) struct Taken {
     pub(super) batch: f64,
     /// The same, one ray at a time.
     pub(super) single: f64,
-    /// Per ray, over the first rays.
+    /// Per ray, over some of them.
     pub(super) steps: f64,
     pub(super) tests: f64,
     /// Answers unlike those of the fastest.

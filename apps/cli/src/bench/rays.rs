@@ -1,8 +1,9 @@
 //! The rays of a bench: from the eye, from what those hit, and from everywhere.
 
 use nestray::batch::closest_hits;
+use nestray::core::surface::Surface;
 use nestray::prelude::{DynObject, Object as _, Ray, RayKind, Scene, Surfaces, Vec3A};
-use nestray::scene::light::LightKind;
+use nestray::scene::light::{Light, LightKind};
 
 use crate::errors::Failure;
 
@@ -27,13 +28,11 @@ pub(super) fn sets(scene: &Scene, world: &DynObject, count: usize) -> Result<Vec
 /// Through the middles of the pixels of a square picture, line by line.
 fn camera(scene: &Scene, count: usize) -> Vec<Ray> {
     let Some(camera) = scene.cameras.first() else { return Vec::new() };
-    let (side, view) = (count.isqrt().max(1), camera.view(1.0));
+    let (side, view) = (count.isqrt().max(1) as u32, camera.view(1.0));
+    let through = |i: u32| view.through([i % side, i / side], [side; 2]);
     (0..side * side)
-        .map(|i| {
-            let at = |i: usize| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
-            let (origin, dir) = view.ray(at(i % side), -at(i / side), [0.0; 2]);
-            Ray::new(origin, dir, RayKind::Camera)
-        })
+        .map(through)
+        .map(|(origin, dir)| Ray::new(origin, dir, RayKind::Camera))
         .collect()
 }
 
@@ -48,16 +47,7 @@ fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3]
         let at = surfaces.at(ray, hit).surface;
         let normal = if at.normal.dot(ray.dir()) > 0.0 { -at.normal } else { at.normal };
         let to = |dir: Vec3A, kind: RayKind| Ray::new(at.leave(dir), dir, kind);
-        if let Some(light) = scene.lights.first() {
-            let kind = RayKind::Shadow { light: 0 };
-            match light.kind {
-                LightKind::Directional { direction } => shadow.push(to(-direction, kind)),
-                LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
-                    let from = at.leave(position - at.position);
-                    shadow.push(Ray::new(from, position - from, kind).between(0.0, 0.999));
-                }
-            }
-        }
+        shadow.extend(scene.lights.first().map(|light| to_light(&at, light)));
         let dir = ray.dir().normalize();
         mirrored.push(to(dir - normal * (2.0 * dir.dot(normal)), RayKind::Reflect));
         // A point on the sphere that touches the surface: scattered by Lambert's law.
@@ -68,6 +58,18 @@ fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3]
         RaySet { name: "reflect", rays: mirrored, any: false },
         RaySet { name: "diffuse", rays: diffuse, any: false },
     ])
+}
+
+/// From a surface to the first light, up to just before it.
+pub(crate) fn to_light(at: &Surface, light: &Light) -> Ray {
+    let kind = RayKind::Shadow { light: 0 };
+    match light.kind {
+        LightKind::Directional { direction } => Ray::new(at.leave(-direction), -direction, kind),
+        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
+            let from = at.leave(position - at.position);
+            Ray::new(from, position - from, kind).between(0.0, 0.999)
+        }
+    }
 }
 
 /// Between points spread over a sphere around everything: random lines, in no order.

@@ -8,9 +8,9 @@ use nestray::plan::build::build;
 use nestray::plan::single::single;
 use nestray::prelude::{DynObject, Hit, Ray, RayKind, Scene, Surfaces};
 use nestray::render::watch::Watch as _;
-use nestray::scene::light::LightKind;
 use nestray::techniques::registry;
 
+use crate::bench::rays::to_light;
 use crate::errors::Failure;
 use crate::progress::{Progress, rate};
 use crate::stop;
@@ -83,10 +83,7 @@ fn rays(scene: &Scene, world: &DynObject) -> Result<Vec<Ray>, Failure> {
         .map(|i| {
             // A step that visits every pixel, far apart from the last: no two neighbours meet.
             let at = i * 8191 % (width * height);
-            let x = (at % width) as f32 + 0.5;
-            let y = (at / width) as f32 + 0.5;
-            let (origin, dir) =
-                view.ray(x / width as f32 * 2.0 - 1.0, 1.0 - y / height as f32 * 2.0, [0.0; 2]);
+            let (origin, dir) = view.through([at % width, at / width], EYE);
             Ray::new(origin, dir, RayKind::Camera)
         })
         .collect();
@@ -95,15 +92,7 @@ fn rays(scene: &Scene, world: &DynObject) -> Result<Vec<Ray>, Failure> {
     for (ray, hit) in eye.iter().zip(&hits) {
         rays.push(*ray);
         if let (true, Some(light)) = (hit.is_some(), scene.lights.first()) {
-            let at = surfaces.at(ray, hit).surface;
-            let dir = match light.kind {
-                LightKind::Directional { direction } => -direction,
-                LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
-                    position - at.position
-                }
-            };
-            let from = at.position + at.normal * (1e-3 * at.normal.dot(dir).signum());
-            rays.push(Ray::new(from, dir, RayKind::Shadow { light: 0 }));
+            rays.push(to_light(&surfaces.at(ray, hit).surface, light));
         }
     }
     Ok(rays)

@@ -72,9 +72,7 @@ fn through([x, y]: [u32; 2], resolution: Option<[u32; 2]>, scene: &Scene) -> Res
         let message = format!("--ray: {x},{y} is no pixel of {width} x {height}");
         return Err(Failure::usage(message));
     }
-    let across = (x as f32 + 0.5) / width as f32 * 2.0 - 1.0;
-    let up = 1.0 - (y as f32 + 0.5) / height as f32 * 2.0;
     let view = camera.view(width as f32 / height as f32);
-    let (origin, dir) = view.ray(across, up, [0.0; 2]);
+    let (origin, dir) = view.through([x, y], [width, height]);
     Ok(Ray::new(origin, dir, RayKind::Camera))
 }

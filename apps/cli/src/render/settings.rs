@@ -50,11 +50,12 @@ pub(super) fn options(args: &RenderArgs, scene: &Scene) -> Result<Options, Failu
     })
 }
 
+/// Times white that a picture to look at keeps of one path. Fireflies are a hundred times as bright
+/// and more; what a mirror or a lens gathers of a lit surface is rarely ten.
+pub(crate) const WHITES: f32 = 10.0;
+
 /// What is asked for, or ten times white where only bytes to look at are kept.
 fn clamp(args: &RenderArgs) -> Option<f32> {
-    /// Fireflies are a hundred times as bright and more; what a mirror or a lens gathers of a
-    /// lit surface is rarely ten.
-    const WHITES: f32 = 10.0;
     let is_png = |path: &PathBuf| matches!(PictureFormat::of(path), Ok(PictureFormat::Png));
     let usual = if args.output.iter().all(is_png) { WHITES } else { 0.0 };
     let whites = args.clamp.unwrap_or(usual);

@@ -62,6 +62,16 @@ impl Step {
     pub const fn as_leaf(self) -> Leaf {
         Leaf(self.0 & !Self::LEAF)
     }
+
+    /// The same; a leaf by its new name, as
+    /// [`rename_leaves`](crate::technique::Technique::rename_leaves) is told.
+    #[must_use]
+    pub fn renamed(self, leaves: &[Leaf]) -> Self {
+        if self.is_onward() || self.is_done() {
+            return self;
+        }
+        Self::leaf(leaves[self.as_leaf().0 as usize])
+    }
 }
 
 /// A leaf: its number while building, then whatever the children call it (31 bits, not

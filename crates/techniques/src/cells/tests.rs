@@ -11,6 +11,7 @@ use nestray_core::trail::Trail;
 
 use super::{CellsIndex, Children, Cursor, Rule};
 use crate::bsp::{BspParams, InHalves};
+use crate::counted::Numbers;
 use crate::kd_tree::ByArea;
 use crate::octree::{InEighths, OctreeParams};
 
@@ -56,35 +57,12 @@ impl Family for Boxes {
     }
 }
 
-/// Random numbers, the same for the same seed.
-struct Numbers(u64);
-
-impl Numbers {
-    fn unit(&mut self) -> f32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn point(&mut self) -> Vec3A {
-        Vec3A::new(self.unit(), self.unit(), self.unit())
-    }
-
-    fn direction(&mut self) -> Vec3A {
-        loop {
-            let point = self.point() * 2.0 - 1.0;
-            if (0.01..=1.0).contains(&point.length_squared()) {
-                return point.normalize();
-            }
-        }
-    }
-}
-
 /// Boxes of all sizes, more of them towards one corner.
 fn boxes(seed: u64, count: usize) -> Boxes {
-    let mut numbers = Numbers(seed);
+    let mut numbers = Numbers::new(seed);
     let mut next = || {
         let min = numbers.point() * numbers.point();
-        let size = [0.01, 0.03, 0.1][(numbers.unit() * 3.0) as usize];
+        let size = [0.01, 0.03, 0.1][(numbers.next() * 3.0) as usize];
         Aabb { min, max: min + numbers.point() * size }
     };
     Boxes((0..count).map(|_| next()).collect())
@@ -134,7 +112,7 @@ fn every_point_of_a_child_is_in_a_cell_with_it<R: Rule>() {
     let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
     let cells = full(&tree);
     assert!(cells.len() > 50, "{}: {} cells", R::NAME, cells.len());
-    let mut numbers = Numbers(2);
+    let mut numbers = Numbers::new(2);
     for child in 0..family.count() {
         let bounds = family.bounds(child);
         for corner in 0..8 {
@@ -167,7 +145,7 @@ fn cells_come_in_order<R: Rule>() {
     let family = boxes(3, 1000);
     let (tree, _) = tree::<R>(&R::Params::default(), &family);
     let cells = full(&tree);
-    let mut numbers = Numbers(4);
+    let mut numbers = Numbers::new(4);
     for i in 0..2000 {
         let (origin, mut dir) = (numbers.point() * 3.0 - 1.0, numbers.direction());
         if i % 4 == 0 {
@@ -203,7 +181,7 @@ fn random_lines_do_what_is_expected<R: Rule>() {
     let family = boxes(5, 2000);
     let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
     let expected = tree.expected(&family, &leaves);
-    let (bounds, mut numbers) = (tree.bounds(), Numbers(6));
+    let (bounds, mut numbers) = (tree.bounds(), Numbers::new(6));
     let radius = bounds.size().length() / 2.0;
     let (mut lines, mut steps, mut tests) = (0, 0, 0);
     while lines < 40_000 {

@@ -1,6 +1,9 @@
 //! In which order children are inserted.
 
 use nestray_core::aabb::Aabb;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 
 /// In which order children are inserted.
@@ -21,34 +24,18 @@ impl Order {
     pub(super) fn of(self, boxes: &[Aabb], seed: u64) -> Vec<u32> {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let area = |child: u32| boxes[child as usize].surface_area();
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
         match self {
             Self::Given => {}
-            Self::Shuffled => shuffle(&mut order, seed),
+            Self::Shuffled => order.shuffle(&mut random),
             Self::Largest => {
                 // Equal ones must not come sorted.
-                shuffle(&mut order, seed);
+                order.shuffle(&mut random);
                 order.sort_by(|&a, &b| area(b).total_cmp(&area(a)));
             }
         }
         order
     }
-}
-
-fn shuffle(order: &mut [u32], seed: u64) {
-    let mut state = seed;
-    for last in (1..order.len()).rev() {
-        let other = (u128::from(next(&mut state)) * (last as u128 + 1)) >> 64;
-        order.swap(last, other as usize);
-    }
-}
-
-/// The next random number [Steele 14].
-fn next(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 #[cfg(test)]

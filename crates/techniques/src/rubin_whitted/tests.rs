@@ -7,7 +7,7 @@ use crate::counted::{Numbers, expected_and_counted, spheres};
 
 /// Long thin rods, all nearly along one slant.
 fn rods(count: u32, seed: u64) -> Vec<AnyShape> {
-    let mut numbers = Numbers(seed);
+    let mut numbers = Numbers::new(seed);
     let slant = Vec3A::new(1.0, 2.0, 1.5);
     (0..count)
         .map(|_| {
