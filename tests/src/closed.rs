@@ -7,10 +7,10 @@ use nestray_core::aabb::Aabb;
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
+use nestray_registry::{Members, TECHNIQUES};
 use nestray_scene::geometry::Content;
 use nestray_scene::scene::Scene;
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::registry::{Members, TECHNIQUES};
 use serde_json::Value;
 
 use crate::numbers::Numbers;

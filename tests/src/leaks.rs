@@ -8,8 +8,8 @@ use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
 use nestray_core::simd::Level;
+use nestray_registry::{Members, TECHNIQUES};
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::registry::{Members, TECHNIQUES};
 use serde_json::Value;
 
 use crate::closed::{edges, points_inside};

@@ -8,10 +8,10 @@ use nestray_core::instance::Instance;
 use nestray_core::lazy::Lazy;
 use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
+use nestray_registry::{Entry, Members, TECHNIQUES, find};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Sides, Single};
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::registry::{Entry, Members, TECHNIQUES, find};
 use serde_json::Value;
 
 use crate::numbers::Numbers;

@@ -3,12 +3,12 @@
 use nestray_core::object::{DynObject, Object};
 use nestray_plan::build::build;
 use nestray_plan::single::single;
+use nestray_registry::TECHNIQUES;
 use nestray_render::options::{Integrator, Options, WhittedOptions};
 use nestray_render::ray_counts::RayCounts;
 use nestray_render::render::render;
 use nestray_render::watch::Unwatched;
 use nestray_scene::scene::Scene;
-use nestray_techniques::registry::TECHNIQUES;
 use serde_json::Map;
 
 /// A scene, and what it is called in messages.

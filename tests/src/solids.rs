@@ -7,11 +7,11 @@ use nestray_core::instance::Instance;
 use nestray_core::object::{DynObject, Object};
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
+use nestray_registry::Members;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::csg::{Csg, Operation};
 use nestray_shapes::shape::Single;
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::registry::Members;
 
 use crate::numbers::Numbers;
 use crate::shapes;

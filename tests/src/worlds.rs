@@ -7,10 +7,10 @@ use nestray_core::aabb::Aabb;
 use nestray_core::instance::Instance;
 use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
+use nestray_registry::{Members, find};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Sides, Single};
 use nestray_shapes::triangle_mesh::{TriangleMesh, Triangles};
-use nestray_techniques::registry::{Members, find};
 use serde_json::Value;
 
 use crate::numbers::Numbers;

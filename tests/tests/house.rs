@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use nestray_techniques::registry::TECHNIQUES;
+use nestray_registry::TECHNIQUES;
 
 /// Longest file and function, in lines.
 const FILE: usize = 300;
@@ -14,12 +14,13 @@ const FUNCTION: usize = 60;
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("core", &[]),
     ("shapes", &["core"]),
-    ("techniques", &["core", "shapes"]),
+    ("techniques", &["core"]),
+    ("registry", &["core", "shapes", "techniques"]),
     ("scene", &["core", "shapes"]),
     ("io", &["core", "shapes", "scene"]),
-    ("plan", &["core", "shapes", "techniques", "scene"]),
+    ("plan", &["core", "shapes", "registry", "scene"]),
     ("render", &["core", "shapes", "scene"]),
-    ("nestray", &["core", "shapes", "techniques", "scene", "io", "plan", "render"]),
+    ("nestray", &["core", "shapes", "techniques", "registry", "scene", "io", "plan", "render"]),
 ];
 
 fn root() -> PathBuf {

@@ -10,7 +10,7 @@ use nestray_core::object::{DynObject, Object};
 use nestray_core::ray::Ray;
 use nestray_core::scratch::Scratch;
 use nestray_core::surface::Surface;
-use nestray_techniques::registry::{Members, TECHNIQUES};
+use nestray_registry::{Members, TECHNIQUES};
 use nestray_tests::numbers::Numbers;
 use nestray_tests::rays::hard;
 use serde_json::Value;

@@ -12,8 +12,8 @@ use nestray::plan::build::build;
 use nestray::plan::describe::bytes;
 use nestray::plan::single::single;
 use nestray::prelude::{DynObject, Object as _, Scene};
+use nestray::registry;
 use nestray::render::watch::Watch as _;
-use nestray::techniques::registry;
 use serde_json::{Value, json};
 
 use self::contest::Taken;

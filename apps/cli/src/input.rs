@@ -7,9 +7,9 @@ use nestray::io::load::{LoadOptions, Loaded, Source, bytes_of, load, read};
 use nestray::plan::error::{PlanError, nearest};
 use nestray::plan::plan::Plan;
 use nestray::plan::single::single;
+use nestray::registry;
 use nestray::scene::procedural;
 use nestray::scene::scene::Scene;
-use nestray::techniques::registry;
 
 use crate::errors::Failure;
 use crate::progress::Progress;

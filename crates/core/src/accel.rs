@@ -3,6 +3,7 @@
 mod barrel;
 mod leaf;
 mod members;
+mod method;
 mod single;
 
 use std::sync::OnceLock;
@@ -20,17 +21,18 @@ use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
 use crate::simd::Level;
 use crate::surface::Surface;
-use crate::technique::{Expected, Leaves, Technique};
+use crate::technique::{Expected, Index, Leaves, Technique};
 
 use self::members::Members;
+use self::method::Method;
 
-/// An aggregate: technique `T` over children `C`. Every technique becomes an
-/// object through this one type.
+/// An aggregate: children `C` that some technique put in order, as an index `I`. Every
+/// technique becomes an object through this one type.
 #[derive(Debug)]
-pub struct Accel<T: Technique, C: Children> {
-    params: T::Params,
+pub struct Accel<I: Index, C: Children> {
+    technique: Box<dyn Method<I>>,
     /// None while there is nothing to put in order.
-    index: Option<T>,
+    index: Option<I>,
     /// Leaves of children that are not packed: a length, then that many numbers of members,
     /// at each place that a leaf is called by.
     table: Vec<u32>,
@@ -48,12 +50,12 @@ pub struct Accel<T: Technique, C: Children> {
     usual_cost: OnceLock<Cost>,
 }
 
-impl<T: Technique, C: Children> Accel<T, C> {
+impl<I: Index, C: Children> Accel<I, C> {
     /// Puts `children` in order. An empty collection is fine: nothing is hit.
     #[must_use]
-    pub fn new(params: T::Params, children: C) -> Self {
+    pub fn new<T: Technique<Index = I>>(technique: T, children: C) -> Self {
         let mut accel = Self {
-            params,
+            technique: Box::new(technique),
             index: None,
             table: Vec::new(),
             members: Members { children, names: Names::default() },
@@ -67,8 +69,8 @@ impl<T: Technique, C: Children> Accel<T, C> {
         accel
     }
 
-    /// The technique, if there is anything to put in order; for reports and tests.
-    pub fn index(&self) -> Option<&T> {
+    /// The index, if there is anything to put in order; for reports and tests.
+    pub fn index(&self) -> Option<&I> {
         self.index.as_ref()
     }
 
@@ -77,7 +79,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         &self.members.children
     }
 
-    /// What the technique expects of a random ray.
+    /// What the index expects of a random ray.
     pub fn expected(&self) -> &Expected {
         &self.expected
     }
@@ -106,9 +108,9 @@ impl<T: Technique, C: Children> Accel<T, C> {
             return;
         }
         let mut leaves = Leaves::default();
-        let mut index = T::build(&self.params, &self.members, &mut leaves);
+        let mut index = self.technique.build(&self.members, &mut leaves);
         self.expected = index.expected(&self.members, &leaves);
-        if C::PACKED && !T::LISTS {
+        if C::PACKED && !I::LISTS {
             self.expected.tests = vec![self.expected.tests.iter().sum()];
             index.rename_leaves(&self.members.children.pack(&leaves, &self.members.names));
         } else {
@@ -139,13 +141,13 @@ impl<T: Technique, C: Children> Accel<T, C> {
     }
 
     /// What one random ray costs in the index, and its memory.
-    fn index_cost(&self, index: &T, model: &CostModel) -> Cost {
+    fn index_cost(&self, index: &I, model: &CostModel) -> Cost {
         let children = &self.members.children;
         let mut bytes = index.bytes() + children.packed_bytes();
         bytes += size_of_val(self.table.as_slice()) as u64 + self.members.names.bytes();
-        let mut nanos = self.expected.steps * model.step(T::NAME);
+        let mut nanos = self.expected.steps * model.step(self.technique.name());
         let mut missed = 1.0;
-        if C::PACKED && !T::LISTS {
+        if C::PACKED && !I::LISTS {
             nanos += f64::from(self.expected.tests[0]) * children.cost(0, model).nanos();
             missed = 0.5;
         } else {
@@ -161,9 +163,9 @@ impl<T: Technique, C: Children> Accel<T, C> {
     }
 }
 
-impl<T: Technique, C: Children> Object for Accel<T, C> {
+impl<I: Index, C: Children> Object for Accel<I, C> {
     fn kind(&self) -> &'static str {
-        T::NAME
+        self.technique.name()
     }
 
     fn bounds(&self) -> Aabb {
@@ -255,7 +257,7 @@ impl<T: Technique, C: Children> Object for Accel<T, C> {
     }
 
     fn settings(&self) -> String {
-        format!("{:?}", self.params)
+        self.technique.settings()
     }
 
     fn visit_children(&self, visit: &mut dyn FnMut(&dyn Object)) {
@@ -263,7 +265,7 @@ impl<T: Technique, C: Children> Object for Accel<T, C> {
     }
 }
 
-impl<T: Technique> Aggregate for Accel<T, Vec<DynObject>> {
+impl<I: Index> Aggregate for Accel<I, Vec<DynObject>> {
     fn add_child(&mut self, child: DynObject) {
         self.usual_cost = OnceLock::new();
         let bounds = child.bounds();

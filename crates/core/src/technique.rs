@@ -1,5 +1,6 @@
 //! How an acceleration technique is written.
 
+mod index;
 mod step;
 
 use std::fmt::Debug;
@@ -7,166 +8,47 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::bundle::{Bundle, Entrance};
 use crate::family::Family;
-use crate::ray::Ray;
-use crate::simd::Simd;
-use crate::trail::Trail;
 
+pub use self::index::{Asks, Expected, Index, Query, Repeats, Visit, Walk};
 pub use self::step::{Leaf, Leaves, Step};
 
-/// An acceleration technique: an index over boxes that yields, for a ray, the
-/// children worth testing, roughly nearest first.
+/// An acceleration technique with its settings, as written in a plan: a way of putting
+/// children in order.
 ///
-/// A technique never sees an object, a hit or a material, and it never runs a loop of
-/// its own: it says where one ray stands ([`Cursor`](Self::Cursor)) and how that ray
-/// moves by one node or cell. The loops are written once, in [`accel`](crate::accel): one
-/// ray at a time, or many in flight at once.
+/// What it makes of them is an [`Index`], which leads rays to them. Several techniques make
+/// the same kind of index, as several builders of hierarchies do; so loops over it are compiled
+/// once for all of them.
 ///
-/// `start`, `step`, `resume`, `address`, `visit` and `listed` must be `#[inline(always)]`:
-/// only then are they compiled for the vector instructions of `simd`.
-pub trait Technique: Debug + Send + Sync + Sized + 'static {
+/// `Default` is what the literature recommends. A missing setting takes its default; an unknown
+/// one is refused by `Deserialize`, one out of range by [`check`](Self::check).
+pub trait Technique:
+    Clone + Debug + Default + PartialEq + Send + Sync + Serialize + DeserializeOwned + 'static
+{
     /// The word used for it in plans and on the command line.
     const NAME: &'static str;
 
-    /// Whether one child may stand in several leaves, and who sees to it that it is tested
-    /// once.
-    const REPEATS: Repeats;
+    /// What it makes of children.
+    type Index: Index;
 
-    /// Whether leaves are listed by the technique itself, while rays fly ([`listed`]), and
-    /// not pushed when it is built. For techniques that refine themselves lazily.
+    /// Puts a family in order. Every child must be pushed into a leaf, unless the index
+    /// [`LISTS`](Index::LISTS).
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Self::Index;
+
+    /// Settings one step away, for the annealer to try.
+    fn neighbours(&self) -> Vec<Self>;
+
+    /// The name of a setting out of range, and the range.
     ///
-    /// [`listed`]: Self::listed
-    const LISTS: bool = false;
-
-    /// Whether it can look up where a whole bundle of rays starts ([`gather`](Self::gather)).
-    const GATHERS: bool = false;
-
-    /// Its settings; `Default` is what the literature recommends.
-    type Params: Params;
-
-    /// Where one ray stands, but for what it has put off ([`Trail`]): plain numbers, best
-    /// within 48 bytes, so that it stays in registers or in one cache line.
-    type Cursor: Copy + Default + Send;
-
-    /// Puts a family in order. Every child must be pushed into a leaf, unless the
-    /// technique [`LISTS`](Self::LISTS).
-    fn build(params: &Self::Params, family: &dyn Family, leaves: &mut Leaves) -> Self;
-
-    /// What a uniformly random ray that meets the joint bounds is expected to do. Asked
-    /// once, right after [`build`](Self::build).
-    fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected;
-
-    /// Replaces every leaf, numbered in the order pushed, by `leaves[number]`.
-    fn rename_leaves(&mut self, leaves: &[Leaf]);
-
-    /// Memory in use.
-    fn bytes(&self) -> u64;
+    /// # Errors
+    /// If there is one.
+    fn check(&self) -> Result<(), OutOfRange>;
 
     /// Why it cannot serve in this place of a plan, if it cannot.
     #[must_use]
-    fn objection(_params: &Self::Params, _place: &Place) -> Option<String> {
+    fn objection(&self, _place: &Place) -> Option<String> {
         None
     }
-
-    /// Places a ray at the beginning.
-    fn start<S: Simd>(&self, simd: S, walk: &mut Walk<'_>, limit: f32) -> (Self::Cursor, Step);
-
-    /// Looks up where the rays of a bundle start. False if the technique cannot, or it is not
-    /// worth it: then they [`start`](Self::start) as any ray does.
-    #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        _simd: S,
-        _bundle: &Bundle,
-        _trail: &mut Trail,
-        _entrance: &mut Entrance,
-    ) -> bool {
-        false
-    }
-
-    /// Places a ray of a bundle that was [`gather`](Self::gather)ed at the beginning.
-    #[inline(always)]
-    fn start_at<S: Simd, Q: Query>(
-        &self,
-        simd: S,
-        walk: &mut Walk<'_>,
-        limit: f32,
-        _entrance: &Entrance,
-    ) -> (Self::Cursor, Step) {
-        self.start(simd, walk, limit)
-    }
-
-    /// Moves a ray that stands at the node or cell `at` by one. It may be shown any leaf that
-    /// begins within `[ray.t_min, limit]`, and must be shown all of them in the end; one that
-    /// begins exactly *at* the limit counts.
-    fn step<S: Simd, Q: Query>(
-        &self,
-        simd: S,
-        walk: &mut Walk<'_>,
-        cursor: &mut Self::Cursor,
-        at: Step,
-        limit: f32,
-    ) -> Step;
-
-    /// Goes on after a leaf was tested; the limit may have shrunk.
-    fn resume<S: Simd, Q: Query>(
-        &self,
-        simd: S,
-        walk: &mut Walk<'_>,
-        cursor: &mut Self::Cursor,
-        limit: f32,
-    ) -> Step;
-
-    /// What the next [`step`](Self::step) reads first; to fetch early, never to read.
-    /// Called for leaves too, with no matter what answer.
-    fn address(&self, cursor: &Self::Cursor, at: Step) -> *const u8;
-
-    /// Whether `child`, shown in the leaf the ray stands at, was shown before. Asked if
-    /// the technique [`REPEATS`](Self::REPEATS) by rule.
-    #[inline(always)]
-    fn visit(&self, _cursor: &Self::Cursor, _child: u32) -> Visit {
-        Visit::First
-    }
-
-    /// The children of a leaf, if the technique [`LISTS`](Self::LISTS) them itself.
-    #[inline(always)]
-    fn listed(&self, _cursor: &Self::Cursor, _leaf: Leaf) -> &[u32] {
-        &[]
-    }
-}
-
-/// What surrounds a ray at every move.
-#[expect(missing_debug_implementations, reason = "lives for one move")]
-pub struct Walk<'a> {
-    /// The ray.
-    pub ray: &'a Ray,
-    /// What it has put off.
-    pub trail: &'a mut Trail,
-    /// The children, for techniques that refine themselves.
-    pub family: &'a dyn Family,
-}
-
-/// Who sees to it that a child that stands in several leaves is tested once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Repeats {
-    /// Nobody has to: each child stands in one leaf.
-    Never,
-    /// The technique can tell from where the ray stands ([`Technique::visit`]).
-    ByRule,
-    /// The aggregate keeps a [`Mailbox`](crate::mailbox::Mailbox).
-    Anywhere,
-}
-
-/// Whether a child was shown before.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Visit {
-    /// It was not.
-    First,
-    /// It was.
-    Again,
-    /// The rule does not hold for this ray: ask a mailbox.
-    Unknown,
 }
 
 /// Where in a plan a technique stands.
@@ -176,23 +58,6 @@ pub struct Place {
     pub instances: usize,
     /// Whether something in it moves during the shutter.
     pub moving: bool,
-}
-
-/// Settings of a technique, as written in a plan.
-///
-/// A missing setting takes its default; an unknown one is refused by `Deserialize`, one out
-/// of range by [`check`](Self::check).
-pub trait Params:
-    Clone + Debug + Default + PartialEq + Send + Sync + Serialize + DeserializeOwned
-{
-    /// Settings one step away, for the annealer to try.
-    fn neighbours(&self) -> Vec<Self>;
-
-    /// The name of a setting out of range, and the range.
-    ///
-    /// # Errors
-    /// If there is one.
-    fn check(&self) -> Result<(), OutOfRange>;
 }
 
 /// A setting that is out of range.
@@ -210,30 +75,4 @@ pub struct OutOfRange {
 /// If it is not.
 pub fn in_range(is: bool, setting: &'static str, range: &'static str) -> Result<(), OutOfRange> {
     if is { Ok(()) } else { Err(OutOfRange { setting, range }) }
-}
-
-/// What is asked, and how many rays are in flight: known when the loops are compiled.
-pub trait Query: Copy {
-    /// Any hit will do, so leaves may come in any order.
-    const ANY: bool;
-    /// Many rays take turns: no branch is predictable, so prefer code without.
-    const MANY: bool;
-}
-
-/// A [`Query`].
-#[derive(Clone, Copy, Debug)]
-pub struct Asks<const ANY: bool, const MANY: bool>;
-
-impl<const ANY: bool, const MANY: bool> Query for Asks<ANY, MANY> {
-    const ANY: bool = ANY;
-    const MANY: bool = MANY;
-}
-
-/// What one random ray is expected to do in an index.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Expected {
-    /// Steps of the technique itself (nodes, cells).
-    pub steps: f64,
-    /// Expected tests of each child, one entry per box.
-    pub tests: Vec<f32>,
 }

@@ -57,6 +57,7 @@ pub use glam;
 pub use nestray_core as core;
 pub use nestray_io as io;
 pub use nestray_plan as plan;
+pub use nestray_registry as registry;
 pub use nestray_render as render;
 pub use nestray_scene as scene;
 pub use nestray_shapes as shapes;

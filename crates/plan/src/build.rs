@@ -9,6 +9,7 @@ use nestray_core::instance::Instance;
 use nestray_core::lazy::Lazy;
 use nestray_core::moving::Moving;
 use nestray_core::object::DynObject;
+use nestray_registry::{self as registry, Entry, Members};
 use nestray_scene::geometry::{Content, Geometry};
 use nestray_scene::group::Motion;
 use nestray_scene::scene::Scene;
@@ -16,7 +17,6 @@ use nestray_scene::solid::Solid;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::triangle_mesh::TriangleMesh;
-use nestray_techniques::registry::{self, Entry, Members};
 use rayon::prelude::*;
 use serde_json::Value;
 

@@ -8,11 +8,11 @@ use std::collections::HashMap;
 
 use nestray_core::by_kind::Case;
 use nestray_core::technique;
+use nestray_registry::{self as registry, Entry};
 use nestray_scene::check::SceneError;
 use nestray_scene::group::Motion;
 use nestray_scene::paths::Paths;
 use nestray_scene::scene::Scene;
-use nestray_techniques::registry::{self, Entry};
 use serde_json::Value;
 
 use self::cover::settle;

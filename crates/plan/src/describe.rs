@@ -130,9 +130,9 @@ mod tests {
     use glam::{Affine3A, Vec3A};
     use nestray_core::instance::Instance;
     use nestray_core::object::DynObject;
+    use nestray_registry::{Members, find};
     use nestray_shapes::shape::Single;
     use nestray_shapes::sphere::Sphere;
-    use nestray_techniques::registry::{Members, find};
     use serde_json::Value;
 
     use super::*;

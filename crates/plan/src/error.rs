@@ -1,7 +1,7 @@
 //! What can be wrong with a plan.
 
+use nestray_registry::SettingsError;
 use nestray_scene::check::SceneError;
-use nestray_techniques::registry::SettingsError;
 use thiserror::Error;
 
 use crate::plan::Plan;

@@ -1,6 +1,6 @@
 //! The JSON schema of plans, for editors and for whoever writes plans by program.
 
-use nestray_techniques::registry;
+use nestray_registry as registry;
 use serde_json::Value;
 
 use crate::plan::Plan;

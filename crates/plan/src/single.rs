@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nestray_core::technique;
+use nestray_registry as registry;
 use nestray_scene::scene::Scene;
-use nestray_techniques::registry;
 use serde_json::{Map, Value};
 
 use crate::error::{PlanError, Problem};

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::Vec3A;
+use nestray_core::accel::Accel;
 use nestray_core::instance::Instance;
 use nestray_core::moving::Moving;
 use nestray_core::object::DynObject;
@@ -20,7 +21,7 @@ use nestray_shapes::parallelogram::Parallelogram;
 use nestray_shapes::shape::Single;
 use nestray_shapes::sphere::Sphere;
 use nestray_shapes::triangle_mesh::TriangleMesh;
-use nestray_techniques::bvh::{Bvh, BvhParams};
+use nestray_techniques::bvh::Bvh;
 
 use crate::options::{Integrator, Options};
 use crate::render::{Rendered, render};
@@ -46,14 +47,14 @@ fn group(scene: &Scene, paths: &Paths, which: usize) -> DynObject {
             Motion::Node(_) => panic!("frames have no nodes"),
         });
     }
-    Arc::new(Bvh::new(BvhParams::default(), objects))
+    Arc::new(Accel::new(Bvh::default(), objects))
 }
 
 fn geometry(number: u32, geometry: &Geometry) -> DynObject {
     match &geometry.content {
         Content::Mesh(triangles) => {
             let mesh = TriangleMesh::new(number, Arc::clone(triangles));
-            Arc::new(Bvh::new(BvhParams::default(), mesh.seen_from(geometry.sides)))
+            Arc::new(Accel::new(Bvh::default(), mesh.seen_from(geometry.sides)))
         }
         Content::Shapes(shapes) => {
             let single = |(primitive, shape): (usize, &AnyShape)| Single {
@@ -63,15 +64,15 @@ fn geometry(number: u32, geometry: &Geometry) -> DynObject {
                 shape: shape.clone(),
             };
             let singles: Vec<Single<AnyShape>> = shapes.iter().enumerate().map(single).collect();
-            Arc::new(Bvh::new(BvhParams::default(), singles))
+            Arc::new(Accel::new(Bvh::default(), singles))
         }
         Content::Solids(solids) => {
-            let mesh = |mesh| Arc::new(Bvh::new(BvhParams::default(), mesh)) as DynObject;
+            let mesh = |mesh| Arc::new(Accel::new(Bvh::default(), mesh)) as DynObject;
             let object = |(primitive, solid): (u32, &Solid)| {
                 solid.object([number, primitive], geometry.sides, &mesh)
             };
             let objects: Vec<DynObject> = (0..).zip(solids.iter()).map(object).collect();
-            Arc::new(Bvh::new(BvhParams::default(), objects))
+            Arc::new(Accel::new(Bvh::default(), objects))
         }
     }
 }

@@ -3,29 +3,16 @@
 //! Space `O(n)` (at most 8 entries a child), build `O(n · depth)`, a ray visits the cells on its
 //! way.
 
-use nestray_core::accel::Accel;
-use nestray_core::technique::{OutOfRange, Params, in_range};
+use nestray_core::family::Family;
+use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use serde::{Deserialize, Serialize};
 
-use crate::cells::{Cell, CellsIndex, Children, Plane, Rule};
+use crate::cells::{Cell, Cells, Children, Plane, Rule};
 
-/// A BSP tree over the children `C`.
-pub type Bsp<C> = Accel<BspIndex, C>;
-
-/// Space cut into halves.
-pub type BspIndex = CellsIndex<InHalves>;
-
-/// Cuts cells in the middle.
-#[derive(Debug)]
-pub struct InHalves {
-    max_leaf: usize,
-    max_depth: u32,
-}
-
-/// Settings of a BSP tree.
+/// The technique: a BSP tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct BspParams {
+pub struct Bsp {
     /// Cells with more children are cut, 2 in the literature; 0 is 8 for packed triangles and 2
     /// for all else.
     pub max_leaf: usize,
@@ -34,7 +21,20 @@ pub struct BspParams {
     pub max_depth: u32,
 }
 
-impl Params for BspParams {
+impl Technique for Bsp {
+    const NAME: &'static str = "bsp";
+    type Index = Cells;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {
+        let children = Children::new(family);
+        let max_depth = match self.max_depth {
+            0 => children.usual_depth().max(16),
+            depth => depth,
+        };
+        let rule = Self { max_leaf: children.most_in_leaf(self.max_leaf, 2), max_depth };
+        Cells::new(&rule, &children, leaves)
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let from = if self.max_leaf > 0 { self.max_leaf } else { 4 };
         [from / 2, from * 2]
@@ -50,19 +50,9 @@ impl Params for BspParams {
     }
 }
 
-impl Rule for InHalves {
-    const NAME: &'static str = "bsp";
-    type Params = BspParams;
+impl Rule for Bsp {
     /// The axis to cut next.
     type Memory = usize;
-
-    fn new(params: &BspParams, children: &Children) -> Self {
-        let max_depth = match params.max_depth {
-            0 => children.usual_depth().max(16),
-            depth => depth,
-        };
-        Self { max_leaf: children.most_in_leaf(params.max_leaf, 2), max_depth }
-    }
 
     fn cut(&self, cell: &Cell<'_>, next: usize) -> Option<(Plane, usize)> {
         if cell.inside.len() <= self.max_leaf || cell.depth >= self.max_depth {

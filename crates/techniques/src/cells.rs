@@ -12,44 +12,31 @@ mod children;
 pub(crate) mod tests;
 
 use std::fmt::Debug;
-use std::marker::PhantomData;
 
 use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::family::Family;
 use nestray_core::huge::Huge;
 use nestray_core::simd::Simd;
-use nestray_core::technique::{
-    Expected, Leaf, Leaves, Params, Query, Repeats, Step, Technique, Walk,
-};
+use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Top};
 
 pub use self::children::{Cell, Children};
 
-/// A tree of cells, cut as `R` says.
+/// A tree of cells.
 #[derive(Debug)]
-pub struct CellsIndex<R> {
+pub struct Cells {
     nodes: Huge<Node>,
     /// The word of a [`Step`].
     root: u32,
     bounds: Aabb,
     /// Whether packed leaves are tested whole.
     packed: bool,
-    rule: PhantomData<R>,
 }
 
 /// Where cells are cut.
-pub trait Rule: Debug + Send + Sync + Sized + 'static {
-    /// [`Technique::NAME`].
-    const NAME: &'static str;
-
-    /// [`Technique::Params`].
-    type Params: Params;
-
+pub trait Rule: Debug {
     /// What a cell knows of how the cells around it were cut.
     type Memory: Copy + Default;
-
-    /// Gets ready to cut up all `children`.
-    fn new(params: &Self::Params, children: &Children) -> Self;
 
     /// Where to cut a cell; none to leave it whole.
     fn cut(&self, cell: &Cell<'_>, memory: Self::Memory) -> Option<(Plane, Self::Memory)>;
@@ -89,7 +76,12 @@ pub struct Cursor {
     top: Top,
 }
 
-impl<R: Rule> CellsIndex<R> {
+impl Cells {
+    /// Cuts up the space around all `children` as `rule` says.
+    pub fn new<R: Rule>(rule: &R, children: &Children, leaves: &mut Leaves) -> Self {
+        build::build(rule, children, leaves)
+    }
+
     /// All cells that have anything in them, with what that is: the number of a leaf, or none
     /// where the cell is cut further; for reports and viewers.
     #[must_use]
@@ -125,15 +117,9 @@ fn halves(bounds: Aabb, axis: usize, at: f32) -> [Aabb; 2] {
     [below, above]
 }
 
-impl<R: Rule> Technique for CellsIndex<R> {
-    const NAME: &'static str = R::NAME;
+impl Index for Cells {
     const REPEATS: Repeats = Repeats::Anywhere;
-    type Params = R::Params;
     type Cursor = Cursor;
-
-    fn build(params: &R::Params, family: &dyn Family, leaves: &mut Leaves) -> Self {
-        build::build(params, &Children::new(family), leaves)
-    }
 
     /// A cell is visited as often as its surface is to that of all; a child is tested once
     /// however many cells it is in, whenever one of them is crossed: about as often as the box

@@ -58,13 +58,13 @@ impl Numbers {
 
 /// Says what lines are expected to do and do: steps, then tests.
 pub(crate) fn expected_and_counted<T: Technique>(
-    params: &T::Params,
+    technique: &T,
     shapes: &[AnyShape],
     seed: u64,
 ) -> [[f64; 2]; 2] {
     const LINES: u32 = 20_000;
     let object = |shape: &AnyShape| Arc::new(Single::new(0, shape.clone())) as DynObject;
-    let nest = Accel::<T, Vec<DynObject>>::new(params.clone(), shapes.iter().map(object).collect());
+    let nest = Accel::new(technique.clone(), shapes.iter().map(object).collect::<Vec<_>>());
     let (mut numbers, mut scratch) = (Numbers::new(seed), Scratch::counting());
     for _ in 0..LINES {
         nest.all_hits(&numbers.line(&nest.bounds()), &mut Vec::new(), &mut scratch);

@@ -7,25 +7,19 @@
 mod grow;
 mod order;
 
-use nestray_core::technique::{OutOfRange, Params, in_range};
+use nestray_core::family::Family;
+use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use self::grow::Grown;
 pub use self::order::Order;
-use crate::wide_tree::{Binary, Builder, Contents, LeafSize, WideTree};
+use crate::wide_tree::{Binary, Contents, LeafSize, WideTree};
 
-/// A tree of boxes, grown child by child.
-pub type GoldsmithSalmonIndex = WideTree<Insertion>;
-
-/// Puts one child after the other where it costs least.
-#[derive(Clone, Copy, Debug)]
-pub struct Insertion;
-
-/// Settings of a hierarchy grown child by child.
+/// The technique: a hierarchy grown child by child.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct GoldsmithSalmonParams {
+pub struct GoldsmithSalmon {
     /// In which order children come, at the first try; at all others they come shuffled.
     pub order: Order,
     /// What shuffles begin with.
@@ -40,14 +34,22 @@ pub struct GoldsmithSalmonParams {
     pub leaf_cost: f32,
 }
 
-impl Default for GoldsmithSalmonParams {
+impl Default for GoldsmithSalmon {
     fn default() -> Self {
         let (order, max_leaf, leaf_cost) = (Order::Shuffled, 8, 0.8);
         Self { order, seed: 0, tries: 4, visits: 128, max_leaf, leaf_cost }
     }
 }
 
-impl Params for GoldsmithSalmonParams {
+impl Technique for GoldsmithSalmon {
+    const NAME: &'static str = "goldsmith-salmon";
+    type Index = WideTree;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {
+        let size = LeafSize { most: self.max_leaf, cost: self.leaf_cost };
+        WideTree::new(size, family, leaves, |of, halves_from| self.grown(of, halves_from))
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let mut near = Vec::new();
         for order in [Order::Given, Order::Shuffled, Order::Largest] {
@@ -69,23 +71,13 @@ impl Params for GoldsmithSalmonParams {
     }
 }
 
-impl Builder for Insertion {
-    const NAME: &'static str = "goldsmith-salmon";
-    type Params = GoldsmithSalmonParams;
-
-    fn leaf_size(params: &GoldsmithSalmonParams) -> LeafSize {
-        LeafSize { most: params.max_leaf, cost: params.leaf_cost }
-    }
-
-    fn build<'a>(
-        params: &GoldsmithSalmonParams,
-        of: &'a Contents,
-        halves_from: usize,
-    ) -> Binary<'a> {
+impl GoldsmithSalmon {
+    /// The cheapest tree of all tries.
+    fn grown<'a>(&self, of: &'a Contents, halves_from: usize) -> Binary<'a> {
         let grown = |attempt: u32| {
-            let order = if attempt == 0 { params.order } else { Order::Shuffled };
-            let order = order.of(&of.boxes, params.seed.wrapping_add(u64::from(attempt)));
-            let mut tree = Grown::new(&of.boxes, params.visits);
+            let order = if attempt == 0 { self.order } else { Order::Shuffled };
+            let order = order.of(&of.boxes, self.seed.wrapping_add(u64::from(attempt)));
+            let mut tree = Grown::new(&of.boxes, self.visits);
             for child in order {
                 tree.insert(child);
             }
@@ -94,7 +86,7 @@ impl Builder for Insertion {
         let cheaper = |a: (f64, u32, Grown<'a>), b: (f64, u32, Grown<'a>)| {
             if a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).is_le() { a } else { b }
         };
-        let best = (0..params.tries).into_par_iter().map(grown).reduce_with(cheaper);
+        let best = (0..self.tries).into_par_iter().map(grown).reduce_with(cheaper);
         let (_, _, tree) = best.expect("there is a try at least");
         Binary::merged(of, &tree.merges(), halves_from)
     }
@@ -107,8 +99,8 @@ mod tests {
 
     #[test]
     fn random_lines_do_what_is_expected() {
-        let params = GoldsmithSalmonParams::default();
-        let both = expected_and_counted::<GoldsmithSalmonIndex>(&params, &spheres(500, 1), 2);
+        let params = GoldsmithSalmon::default();
+        let both = expected_and_counted(&params, &spheres(500, 1), 2);
         for [expected, counted] in both {
             assert!((counted / expected - 1.0).abs() < 0.03, "{counted} for {expected}");
         }
@@ -117,8 +109,8 @@ mod tests {
     #[test]
     fn more_tries_are_not_dearer() {
         let cost = |tries| {
-            let params = GoldsmithSalmonParams { tries, ..Default::default() };
-            expected_and_counted::<GoldsmithSalmonIndex>(&params, &spheres(100, 1), 2)[0][0]
+            let params = GoldsmithSalmon { tries, ..Default::default() };
+            expected_and_counted(&params, &spheres(100, 1), 2)[0][0]
         };
         assert!(cost(16) <= 1.05 * cost(1), "{} {}", cost(16), cost(1));
     }

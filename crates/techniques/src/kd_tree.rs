@@ -5,31 +5,18 @@
 
 mod sweep;
 
-use nestray_core::accel::Accel;
-use nestray_core::technique::{OutOfRange, Params, in_range};
+use nestray_core::family::Family;
+use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use serde::{Deserialize, Serialize};
 
-use crate::cells::{Cell, CellsIndex, Children, Plane, Rule};
+use crate::cells::{Cell, Cells, Children, Plane, Rule};
 
 use self::sweep::Sweep;
 
-/// A kd-tree over the children `C`.
-pub type KdTree<C> = Accel<KdTreeIndex, C>;
-
-/// Space cut by planes of least expected cost.
-pub type KdTreeIndex = CellsIndex<ByArea>;
-
-/// Cuts by the surface area heuristic.
-#[derive(Debug)]
-pub struct ByArea {
-    params: KdTreeParams,
-    max_depth: u32,
-}
-
-/// Settings of a kd-tree.
+/// The technique: a kd-tree.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct KdTreeParams {
+pub struct KdTree {
     /// What visiting a node costs, in nanoseconds.
     pub step_cost: f32,
     /// By which part a cut is cheaper if it cuts off empty space.
@@ -38,13 +25,26 @@ pub struct KdTreeParams {
     pub max_depth: u32,
 }
 
-impl Default for KdTreeParams {
+impl Default for KdTree {
     fn default() -> Self {
         Self { step_cost: 5.0, empty_bonus: 0.2, max_depth: 0 }
     }
 }
 
-impl Params for KdTreeParams {
+impl Technique for KdTree {
+    const NAME: &'static str = "kd-tree";
+    type Index = Cells;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {
+        let children = Children::new(family);
+        let max_depth = match self.max_depth {
+            0 => children.usual_depth(),
+            depth => depth,
+        };
+        let rule = Self { max_depth, ..*self };
+        Cells::new(&rule, &children, leaves)
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         [0.5, 2.0]
             .map(|factor| Self { step_cost: self.step_cost * factor, ..*self })
@@ -65,26 +65,16 @@ const MOST_BAD: u8 = 3;
 /// Cells with fewer children are not cut where that seems not worth it.
 const FEW: usize = 16;
 
-impl Rule for ByArea {
-    const NAME: &'static str = "kd-tree";
-    type Params = KdTreeParams;
+impl Rule for KdTree {
     /// How many cuts on the way seemed not worth it.
     type Memory = u8;
 
-    fn new(params: &KdTreeParams, children: &Children) -> Self {
-        let max_depth = match params.max_depth {
-            0 => children.usual_depth(),
-            depth => depth,
-        };
-        Self { params: *params, max_depth }
-    }
-
     fn cut(&self, cell: &Cell<'_>, bad: u8) -> Option<(Plane, u8)> {
         let whole = cell.price();
-        if cell.depth >= self.max_depth || whole <= f64::from(self.params.step_cost) {
+        if cell.depth >= self.max_depth || whole <= f64::from(self.step_cost) {
             return None;
         }
-        let (plane, cost) = Sweep::new(&self.params, cell).best()?;
+        let (plane, cost) = Sweep::new(self, cell).best()?;
         if cost < whole {
             return Some((plane, bad));
         }

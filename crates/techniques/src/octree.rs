@@ -8,30 +8,16 @@
 
 mod planes;
 
-use nestray_core::accel::Accel;
-use nestray_core::technique::{OutOfRange, Params, in_range};
+use nestray_core::family::Family;
+use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use serde::{Deserialize, Serialize};
 
-use crate::cells::{Cell, CellsIndex, Children, Plane, Rule};
+use crate::cells::{Cell, Cells, Children, Plane, Rule};
 
-/// An octree over the children `C`.
-pub type Octree<C> = Accel<OctreeIndex, C>;
-
-/// Space cut into eighths.
-pub type OctreeIndex = CellsIndex<InEighths>;
-
-/// Cuts cells by three planes.
-#[derive(Debug)]
-pub struct InEighths {
-    max_leaf: usize,
-    max_depth: u32,
-    places: Places,
-}
-
-/// Settings of an octree.
+/// The technique: an octree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct OctreeParams {
+pub struct Octree {
     /// Cells with more children are cut, 1 to 8 in the literature; 0 is 8 for packed triangles
     /// and 2 for all else.
     pub max_leaf: usize,
@@ -53,7 +39,22 @@ pub enum Places {
     ByCost,
 }
 
-impl Params for OctreeParams {
+impl Technique for Octree {
+    const NAME: &'static str = "octree";
+    type Index = Cells;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {
+        let children = Children::new(family);
+        let max_depth = match self.max_depth {
+            // Twice as many cells along an axis, four times as many on a surface.
+            0 => (5 + (usize::BITS - children.boxes.len().leading_zeros()) / 2).min(MOST),
+            depth => depth,
+        };
+        let max_leaf = children.most_in_leaf(self.max_leaf, 2);
+        let rule = Self { max_leaf, max_depth, ..*self };
+        Cells::new(&rule, &children, leaves)
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let from = if self.max_leaf > 0 { self.max_leaf } else { 4 };
         let other = match self.places {
@@ -86,20 +87,8 @@ pub struct Progress {
     planes: [Option<f32>; 3],
 }
 
-impl Rule for InEighths {
-    const NAME: &'static str = "octree";
-    type Params = OctreeParams;
+impl Rule for Octree {
     type Memory = Progress;
-
-    fn new(params: &OctreeParams, children: &Children) -> Self {
-        let max_depth = match params.max_depth {
-            // Twice as many cells along an axis, four times as many on a surface.
-            0 => (5 + (usize::BITS - children.boxes.len().leading_zeros()) / 2).min(MOST),
-            depth => depth,
-        };
-        let max_leaf = children.most_in_leaf(params.max_leaf, 2);
-        Self { max_leaf, max_depth, places: params.places }
-    }
 
     fn cut(&self, cell: &Cell<'_>, mut progress: Progress) -> Option<(Plane, Progress)> {
         if progress.planes == [None; 3] {

@@ -5,22 +5,16 @@
 
 mod merge;
 
-use nestray_core::technique::{OutOfRange, Params, in_range};
+use nestray_core::family::Family;
+use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use serde::{Deserialize, Serialize};
 
-use crate::wide_tree::{Binary, Builder, Contents, LeafSize, WideTree};
+use crate::wide_tree::{Binary, LeafSize, WideTree};
 
-/// A tree of boxes, put together from the bottom.
-pub type PlocIndex = WideTree<Clustering>;
-
-/// Merges clusters of children that are each other's nearest.
-#[derive(Clone, Copy, Debug)]
-pub struct Clustering;
-
-/// Settings of a hierarchy put together from the bottom.
+/// The technique: a hierarchy put together from the bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct PlocParams {
+pub struct Ploc {
     /// How many clusters to either side are candidates to merge with.
     pub window: usize,
     /// Most children in one leaf.
@@ -29,13 +23,23 @@ pub struct PlocParams {
     pub leaf_cost: f32,
 }
 
-impl Default for PlocParams {
+impl Default for Ploc {
     fn default() -> Self {
         Self { window: 16, max_leaf: 8, leaf_cost: 0.8 }
     }
 }
 
-impl Params for PlocParams {
+impl Technique for Ploc {
+    const NAME: &'static str = "ploc";
+    type Index = WideTree;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {
+        let size = LeafSize { most: self.max_leaf, cost: self.leaf_cost };
+        WideTree::new(size, family, leaves, |of, halves_from| {
+            Binary::merged(of, &merge::merges(of, self.window), halves_from)
+        })
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let near = [
             Self { window: self.window / 2, ..*self },
@@ -53,19 +57,6 @@ impl Params for PlocParams {
     }
 }
 
-impl Builder for Clustering {
-    const NAME: &'static str = "ploc";
-    type Params = PlocParams;
-
-    fn leaf_size(params: &PlocParams) -> LeafSize {
-        LeafSize { most: params.max_leaf, cost: params.leaf_cost }
-    }
-
-    fn build<'a>(params: &PlocParams, of: &'a Contents, halves_from: usize) -> Binary<'a> {
-        Binary::merged(of, &merge::merges(of, params.window), halves_from)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,8 +64,8 @@ mod tests {
 
     #[test]
     fn random_lines_do_what_is_expected() {
-        let params = PlocParams::default();
-        for [expected, counted] in expected_and_counted::<PlocIndex>(&params, &spheres(500, 1), 2) {
+        let params = Ploc::default();
+        for [expected, counted] in expected_and_counted(&params, &spheres(500, 1), 2) {
             assert!((counted / expected - 1.0).abs() < 0.03, "{counted} for {expected}");
         }
     }

@@ -8,19 +8,19 @@ use glam::Vec3A;
 use nestray_core::family::Family;
 use nestray_core::simd::Simd;
 use nestray_core::technique::{
-    Expected, Leaf, Leaves, OutOfRange, Params, Query, Repeats, Step, Technique, Walk, in_range,
+    Expected, Index, Leaf, Leaves, OutOfRange, Query, Repeats, Step, Technique, Walk, in_range,
 };
 use serde::{Deserialize, Serialize};
 
-use crate::bvh::{BvhIndex, BvhParams};
+use crate::bvh::Bvh;
 use crate::slabs::planes::{Cut, slack};
-use crate::wide_tree::{self, next, turn};
+use crate::wide_tree::{self, WideTree, next, turn};
 
 /// A tree of boxes. In some nodes all eight are turned alike.
 #[derive(Debug)]
 pub struct RubinWhittedIndex {
     /// The note of a turned node is 1 more than the number of its turned boxes.
-    tree: BvhIndex,
+    tree: WideTree,
     turned: Vec<Turned>,
 }
 
@@ -32,10 +32,10 @@ struct Turned {
     rows: [[[f32; 8]; 2]; 3],
 }
 
-/// Settings of a hierarchy of turned boxes.
+/// The technique: a hierarchy of turned boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct RubinWhittedParams {
+pub struct RubinWhitted {
     /// How many times smaller turned boxes must be to be worth turning the ray.
     pub gain: f32,
     /// Nodes with more children below are not turned: large parts of a scene fill boxes as
@@ -47,13 +47,24 @@ pub struct RubinWhittedParams {
     pub leaf_cost: f32,
 }
 
-impl Default for RubinWhittedParams {
+impl Default for RubinWhitted {
     fn default() -> Self {
         Self { gain: 1.5, most_below: 4096, max_leaf: 8, leaf_cost: 0.8 }
     }
 }
 
-impl Params for RubinWhittedParams {
+impl Technique for RubinWhitted {
+    const NAME: &'static str = "rubin-whitted";
+    type Index = RubinWhittedIndex;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> RubinWhittedIndex {
+        let (max_leaf, leaf_cost) = (self.max_leaf, self.leaf_cost);
+        let of_boxes = Bvh { max_leaf, leaf_cost, ..Bvh::default() };
+        let tree = of_boxes.build(family, leaves);
+        let (notes, turned) = orient::turned(self, &tree, family, leaves);
+        RubinWhittedIndex { tree: tree.with_notes(&notes), turned }
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let gains = [1.0, 1.25, 2.0].map(|gain| Self { gain, ..*self });
         let leaves = [self.max_leaf / 2, self.max_leaf * 2];
@@ -70,19 +81,9 @@ impl Params for RubinWhittedParams {
     }
 }
 
-impl Technique for RubinWhittedIndex {
-    const NAME: &'static str = "rubin-whitted";
+impl Index for RubinWhittedIndex {
     const REPEATS: Repeats = Repeats::Never;
-    type Params = RubinWhittedParams;
     type Cursor = wide_tree::Cursor;
-
-    fn build(params: &RubinWhittedParams, family: &dyn Family, leaves: &mut Leaves) -> Self {
-        let (max_leaf, leaf_cost) = (params.max_leaf, params.leaf_cost);
-        let of_boxes = BvhParams { max_leaf, leaf_cost, ..BvhParams::default() };
-        let tree = BvhIndex::build(&of_boxes, family, leaves);
-        let (notes, turned) = orient::turned(params, &tree, family, leaves);
-        Self { tree: tree.with_notes(&notes), turned }
-    }
 
     /// A box is met as often as its surface is to that of the box around all.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {

@@ -5,24 +5,20 @@
 pub(crate) mod planes;
 mod volume;
 
-use nestray_core::accel::Accel;
 use nestray_core::family::Family;
 use nestray_core::simd::Simd;
 use nestray_core::technique::{
-    Expected, Leaf, Leaves, OutOfRange, Params, Query, Repeats, Step, Technique, Walk, in_range,
+    Expected, Index, Leaf, Leaves, OutOfRange, Query, Repeats, Step, Technique, Walk, in_range,
 };
 use serde::{Deserialize, Serialize};
 
-use crate::bvh::{BvhIndex, BvhParams};
-use crate::wide_tree::{self, next, turn};
-
-/// A hierarchy of slabs over the children `C`.
-pub type Slabs<C> = Accel<SlabsIndex, C>;
+use crate::bvh::Bvh;
+use crate::wide_tree::{self, WideTree, next, turn};
 
 /// A tree of boxes, with slanting planes that cut each of them further.
 #[derive(Debug)]
 pub struct SlabsIndex {
-    tree: BvhIndex,
+    tree: WideTree,
     /// For each node, and each slanting direction, how far its eight parts reach.
     rows: Vec<[[f32; 8]; 2]>,
     /// The slanting directions, as a range of [`planes::SLANTING`].
@@ -30,10 +26,10 @@ pub struct SlabsIndex {
     to: usize,
 }
 
-/// Settings of a hierarchy of slabs.
+/// The technique: a hierarchy of slabs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct SlabsParams {
+pub struct Slabs {
     /// How many sets of parallel planes bound a volume: 3 along the axes, and the 4 diagonals of
     /// a cube (7), the 6 of its faces (9), or both (13).
     pub sets: usize,
@@ -43,13 +39,25 @@ pub struct SlabsParams {
     pub leaf_cost: f32,
 }
 
-impl Default for SlabsParams {
+impl Default for Slabs {
     fn default() -> Self {
         Self { sets: 7, max_leaf: 8, leaf_cost: 0.8 }
     }
 }
 
-impl Params for SlabsParams {
+impl Technique for Slabs {
+    const NAME: &'static str = "slabs";
+    type Index = SlabsIndex;
+
+    fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> SlabsIndex {
+        let (max_leaf, leaf_cost) = (self.max_leaf, self.leaf_cost);
+        let of_boxes = Bvh { max_leaf, leaf_cost, ..Bvh::default() };
+        let tree = of_boxes.build(family, leaves);
+        let (from, to) = planes::slanting(self.sets);
+        let rows = volume::rows(&tree, family, leaves, &planes::SLANTING[from..to]);
+        SlabsIndex { tree, rows, from, to }
+    }
+
     fn neighbours(&self) -> Vec<Self> {
         let sets = [3, 7, 9, 13].map(|sets| Self { sets, ..*self });
         let leaves = [self.max_leaf / 2, self.max_leaf * 2];
@@ -81,20 +89,9 @@ impl SlabsIndex {
     }
 }
 
-impl Technique for SlabsIndex {
-    const NAME: &'static str = "slabs";
+impl Index for SlabsIndex {
     const REPEATS: Repeats = Repeats::Never;
-    type Params = SlabsParams;
     type Cursor = Cursor;
-
-    fn build(params: &SlabsParams, family: &dyn Family, leaves: &mut Leaves) -> Self {
-        let (max_leaf, leaf_cost) = (params.max_leaf, params.leaf_cost);
-        let of_boxes = BvhParams { max_leaf, leaf_cost, ..BvhParams::default() };
-        let tree = BvhIndex::build(&of_boxes, family, leaves);
-        let (from, to) = planes::slanting(params.sets);
-        let rows = volume::rows(&tree, family, leaves, &planes::SLANTING[from..to]);
-        Self { tree, rows, from, to }
-    }
 
     /// A volume is met as often as its surface is to that of the box around all.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {

@@ -8,45 +8,23 @@ mod collapse;
 mod gather;
 mod kernel;
 
-use std::fmt::Debug;
-use std::marker::PhantomData;
-
 use nestray_core::aabb::Aabb;
 use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
 use nestray_core::huge::Huge;
 use nestray_core::simd::Simd;
-use nestray_core::technique::{
-    Expected, Leaf, Leaves, Params, Query, Repeats, Step, Technique, Walk,
-};
+use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Top, Trail};
 
 pub use self::binary::{Binary, Contents, Pair, area, in_halves};
 pub use self::kernel::Cursor;
 
-/// A tree of boxes, eight to a node, as put together by `B`.
+/// A tree of boxes, eight to a node.
 #[derive(Debug)]
-pub struct WideTree<B> {
+pub struct WideTree {
     nodes: Huge<Node>,
     /// Largest coordinate of the boxes, which rounding errors are relative to.
     reach: f32,
-    builder: PhantomData<fn() -> B>,
-}
-
-/// A way of putting children together in pairs.
-pub trait Builder: Debug + 'static {
-    /// [`Technique::NAME`] of its trees.
-    const NAME: &'static str;
-
-    /// Its settings.
-    type Params: Params;
-
-    /// How large leaves are.
-    fn leaf_size(params: &Self::Params) -> LeafSize;
-
-    /// Puts children together. Below `halves_from` levels it splits in halves, so that no input
-    /// makes the tree deep.
-    fn build<'a>(params: &Self::Params, of: &'a Contents, halves_from: usize) -> Binary<'a>;
 }
 
 /// How many children a leaf may have, and what it costs.
@@ -71,7 +49,21 @@ struct Node {
     spare: [u32; 8],
 }
 
-impl<B> WideTree<B> {
+impl WideTree {
+    /// The nodes of the binary tree that `build` makes. It is told from which level on it has to
+    /// split in halves, so that no input makes the tree deep.
+    pub fn new(
+        size: LeafSize,
+        family: &dyn Family,
+        leaves: &mut Leaves,
+        build: impl for<'a> Fn(&'a Contents, usize) -> Binary<'a>,
+    ) -> Self {
+        let of = Contents::new(family);
+        let nodes = collapse::collapsed(size, leaves, |halves_from| build(&of, halves_from));
+        let reach = of.boxes.iter().fold(0f32, |reach, bounds| reach.max(bounds.reach()));
+        Self { nodes: Huge::new(&nodes, 0), reach }
+    }
+
     /// Where a ray begins.
     #[inline(always)]
     pub(crate) fn cursor(&self, walk: &mut Walk<'_>) -> Cursor {
@@ -129,21 +121,10 @@ impl<B> WideTree<B> {
     }
 }
 
-impl<B: Builder> Technique for WideTree<B> {
-    const NAME: &'static str = B::NAME;
+impl Index for WideTree {
     const REPEATS: Repeats = Repeats::Never;
     const GATHERS: bool = true;
-    type Params = B::Params;
     type Cursor = Cursor;
-
-    fn build(params: &B::Params, family: &dyn Family, leaves: &mut Leaves) -> Self {
-        let of = Contents::new(family);
-        let nodes = collapse::collapsed(B::leaf_size(params), leaves, |halves_from| {
-            B::build(params, &of, halves_from)
-        });
-        let reach = of.boxes.iter().fold(0f32, |reach, bounds| reach.max(bounds.reach()));
-        Self { nodes: Huge::new(&nodes, 0), reach, builder: PhantomData }
-    }
 
     /// A node is visited as often as its surface is to the root's [Goldsmith 87].
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {

@@ -7,8 +7,8 @@ use nestray::batch::closest_hits;
 use nestray::plan::build::build;
 use nestray::plan::single::single;
 use nestray::prelude::{DynObject, Hit, Ray, RayKind, Scene, Surfaces};
+use nestray::registry;
 use nestray::render::watch::Watch as _;
-use nestray::techniques::registry;
 
 use crate::bench::rays::to_light;
 use crate::errors::Failure;

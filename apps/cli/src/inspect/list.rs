@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
+use nestray::registry::TECHNIQUES;
 use nestray::scene::procedural::SCENES;
-use nestray::techniques::registry::TECHNIQUES;
 use serde_json::{Value, json};
 
 use super::Report;

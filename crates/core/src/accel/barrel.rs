@@ -14,7 +14,7 @@ use crate::mailbox::Stamp;
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::{Simd, prefetch};
-use crate::technique::{Asks, Step, Technique, Walk};
+use crate::technique::{Asks, Index, Step, Walk};
 use crate::trail::Trail;
 
 /// Rays in flight; with half as many, memory is not hidden, with twice as many they push
@@ -127,34 +127,34 @@ impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
 impl Bundled {
     /// Makes a bundle of the first of `rest`, which begins with ray `first`.
     #[inline(always)]
-    fn open<S: Simd, T: Technique>(
+    fn open<S: Simd, I: Index>(
         &mut self,
         simd: S,
-        index: &T,
+        index: &I,
         rest: &[Ray],
         first: usize,
         trail: &mut Trail,
     ) {
         let rays = &rest[..rest.len().min(bundle::RAYS)];
         self.end = first + rays.len();
-        self.gathered = T::GATHERS
+        self.gathered = I::GATHERS
             && Bundle::of(rays)
                 .is_some_and(|bundle| index.gather(simd, &bundle, trail, &mut self.entrance));
     }
 }
 
-impl<T: Technique, C: Children> Accel<T, C> {
+impl<I: Index, C: Children> Accel<I, C> {
     /// Traces all `rays`; fills the hits, or whether something is hit if `ANY`.
     #[inline(always)]
     pub(super) fn barrel<S: Simd, const ANY: bool>(
         &self,
         simd: S,
-        index: &T,
+        index: &I,
         rays: &[Ray],
         mut answers: Answers<'_>,
         scratch: &mut Scratch,
     ) {
-        let mut flight = InFlight::<T::Cursor, C::Probe>::new(rays.len());
+        let mut flight = InFlight::<I::Cursor, C::Probe>::new(rays.len());
         loop {
             self.let_in::<S, ANY>(simd, index, rays, &answers, (&mut flight, scratch));
             if flight.lists.onward.count + flight.lists.leaf.count == 0 {
@@ -177,10 +177,10 @@ impl<T: Technique, C: Children> Accel<T, C> {
     fn let_in<S: Simd, const ANY: bool>(
         &self,
         simd: S,
-        index: &T,
+        index: &I,
         rays: &[Ray],
         (hits, blocked): &Answers<'_>,
-        (flight, scratch): (&mut InFlight<T::Cursor, C::Probe>, &mut Scratch),
+        (flight, scratch): (&mut InFlight<I::Cursor, C::Probe>, &mut Scratch),
     ) {
         let InFlight { slots, trails, lists, next, bundle } = flight;
         for i in 0..lists.free.drain() {
@@ -220,9 +220,9 @@ impl<T: Technique, C: Children> Accel<T, C> {
     fn step_all<S: Simd, const ANY: bool>(
         &self,
         simd: S,
-        index: &T,
+        index: &I,
         rays: &[Ray],
-        flight: &mut InFlight<T::Cursor, C::Probe>,
+        flight: &mut InFlight<I::Cursor, C::Probe>,
     ) {
         let InFlight { slots, trails, lists, .. } = flight;
         for i in 0..lists.onward.drain() {
@@ -243,10 +243,10 @@ impl<T: Technique, C: Children> Accel<T, C> {
     fn serve_leaves<S: Simd, const ANY: bool>(
         &self,
         simd: S,
-        index: &T,
+        index: &I,
         rays: &[Ray],
         (hits, blocked): &mut Answers<'_>,
-        (flight, scratch): (&mut InFlight<T::Cursor, C::Probe>, &mut Scratch),
+        (flight, scratch): (&mut InFlight<I::Cursor, C::Probe>, &mut Scratch),
     ) {
         let InFlight { slots, trails, lists, .. } = flight;
         for i in 0..lists.leaf.drain() {
@@ -279,7 +279,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
 
     /// Fetches what the next step or leaf test reads first.
     #[inline(always)]
-    fn fetch(&self, index: &T, cursor: &T::Cursor, at: Step) {
+    fn fetch(&self, index: &I, cursor: &I::Cursor, at: Step) {
         let leaf = if Self::PACKED {
             self.members.children.address(at.as_leaf())
         } else {

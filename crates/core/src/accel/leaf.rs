@@ -7,24 +7,24 @@ use crate::mailbox::Stamp;
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::Simd;
-use crate::technique::{Leaf, Repeats, Technique, Visit};
+use crate::technique::{Index, Leaf, Repeats, Visit};
 
 /// One ray in an aggregate: what a leaf test needs of it.
-pub(super) struct This<'a, T: Technique, C: Children> {
-    pub(super) index: &'a T,
+pub(super) struct This<'a, I: Index, C: Children> {
+    pub(super) index: &'a I,
     pub(super) ray: &'a Ray,
     pub(super) probe: &'a C::Probe,
-    pub(super) cursor: &'a T::Cursor,
+    pub(super) cursor: &'a I::Cursor,
 }
 
-impl<T: Technique, C: Children> Accel<T, C> {
+impl<I: Index, C: Children> Accel<I, C> {
     /// Whether leaves are tested whole.
-    pub(super) const PACKED: bool = C::PACKED && !T::LISTS;
+    pub(super) const PACKED: bool = C::PACKED && !I::LISTS;
 
     /// The members in a leaf that is not packed.
     #[inline(always)]
-    fn members_in<'a>(&'a self, this: &This<'a, T, C>, leaf: Leaf) -> &'a [u32] {
-        if T::LISTS {
+    fn members_in<'a>(&'a self, this: &This<'a, I, C>, leaf: Leaf) -> &'a [u32] {
+        if I::LISTS {
             return this.index.listed(this.cursor, leaf);
         }
         let at = leaf.0 as usize;
@@ -35,12 +35,12 @@ impl<T: Technique, C: Children> Accel<T, C> {
     #[inline(always)]
     fn is_new<S: Simd>(
         &self,
-        this: &This<'_, T, C>,
+        this: &This<'_, I, C>,
         member: u32,
         stamp: &mut Stamp,
         scratch: &mut Scratch,
     ) -> bool {
-        let visit = match T::REPEATS {
+        let visit = match I::REPEATS {
             Repeats::Never => Visit::First,
             Repeats::ByRule => this.index.visit(this.cursor, member),
             Repeats::Anywhere => Visit::Unknown,
@@ -82,7 +82,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         &self,
         simd: S,
         leaf: Leaf,
-        this: &This<'_, T, C>,
+        this: &This<'_, I, C>,
         (hit, stamp): (&mut Hit, &mut Stamp),
         scratch: &mut Scratch,
     ) -> bool {
@@ -106,7 +106,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         &self,
         simd: S,
         leaf: Leaf,
-        this: &This<'_, T, C>,
+        this: &This<'_, I, C>,
         stamp: &mut Stamp,
         scratch: &mut Scratch,
     ) -> bool {
@@ -131,7 +131,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         &self,
         simd: S,
         leaf: Leaf,
-        this: &This<'_, T, C>,
+        this: &This<'_, I, C>,
         (hits, stamp): (&mut Vec<Hit>, &mut Stamp),
         scratch: &mut Scratch,
     ) {

@@ -10,7 +10,7 @@ use crate::mailbox::Stamp;
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::Simd;
-use crate::technique::{Asks, Leaf, Query, Technique, Walk};
+use crate::technique::{Asks, Index, Leaf, Query, Walk};
 use crate::trail::Trail;
 
 /// Nearest hit, one ray.
@@ -18,7 +18,7 @@ type Nearest = Asks<false, false>;
 /// Any hit or all of them, one ray.
 type Unordered = Asks<true, false>;
 
-impl<T: Technique, C: Children> Accel<T, C> {
+impl<I: Index, C: Children> Accel<I, C> {
     #[inline(always)]
     pub(super) fn closest<S: Simd>(
         &self,
@@ -107,7 +107,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         ray: &Ray,
         mut limit: f32,
         scratch: &mut Scratch,
-        mut test: impl FnMut(Leaf, &This<'_, T, C>, &mut Scratch) -> ControlFlow<(), f32>,
+        mut test: impl FnMut(Leaf, &This<'_, I, C>, &mut Scratch) -> ControlFlow<(), f32>,
     ) {
         let Some(index) = &self.index else { return };
         let probe = self.members.children.probe(ray);
@@ -117,7 +117,7 @@ impl<T: Technique, C: Children> Accel<T, C> {
         loop {
             while at.is_onward() {
                 if S::COUNTS {
-                    scratch.counters.steps(ray.kind(), T::NAME, 1);
+                    scratch.counters.steps(ray.kind(), self.technique.name(), 1);
                 }
                 at = index.step::<S, Q>(simd, &mut walk, &mut cursor, at, limit);
             }

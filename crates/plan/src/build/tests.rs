@@ -6,6 +6,7 @@ use nestray_core::moving::Keys;
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
+use nestray_registry as registry;
 use nestray_scene::geometry::{Content, Geometry};
 use nestray_scene::group::{Group, Motion, Place};
 use nestray_scene::scene::Scene;
@@ -17,7 +18,6 @@ use nestray_shapes::csg::Operation;
 use nestray_shapes::shape::Sides;
 use nestray_shapes::sphere::Sphere;
 use nestray_shapes::triangle_mesh::Triangles;
-use nestray_techniques::registry;
 use serde_json::Map;
 
 use super::build;

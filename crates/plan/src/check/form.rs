@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nestray_techniques::registry::{self, SettingsError};
+use nestray_registry::{self as registry, SettingsError};
 use serde_json::Value;
 
 use crate::error::{PlanError, Problem, nearest};

@@ -1,40 +1,32 @@
 //! Cutting up space.
 
-use std::marker::PhantomData;
-
 use nestray_core::aabb::Aabb;
 use nestray_core::huge::Huge;
 use nestray_core::technique::{Leaves, Step};
 
-use super::{Cell, CellsIndex, Children, EMPTY, Node, Rule, halves};
+use super::{Cell, Cells, Children, EMPTY, Node, Rule, halves};
 
 /// Most cells around one: a [`Trail`](nestray_core::trail::Trail) has room for twice as many.
 const MAX_DEPTH: u32 = 64;
 /// Most cells a child is in, on average, whatever a rule says.
 const REPEATS: f64 = 8.0;
 
-pub(super) fn build<R: Rule>(
-    params: &R::Params,
-    children: &Children,
-    leaves: &mut Leaves,
-) -> CellsIndex<R> {
+pub(super) fn build<R: Rule>(rule: &R, children: &Children, leaves: &mut Leaves) -> Cells {
     let count = children.boxes.len();
-    let rule = R::new(params, children);
     let mut growing = Growing { rule, children, nodes: Vec::new(), leaves };
     let all = (0..count as u32).collect();
     let room = REPEATS * count as f64;
     let root = growing.grow(children.bounds, 0, all, room, R::Memory::default());
-    CellsIndex {
+    Cells {
         nodes: Huge::new(&growing.nodes, 0),
         root,
         bounds: children.bounds,
         packed: children.are_packed(),
-        rule: PhantomData,
     }
 }
 
 struct Growing<'a, R> {
-    rule: R,
+    rule: &'a R,
     children: &'a Children,
     nodes: Vec<Node>,
     leaves: &'a mut Leaves,

@@ -30,7 +30,7 @@ pub struct Cell<'a> {
 }
 
 impl Children {
-    pub(super) fn new(family: &dyn Family) -> Self {
+    pub(crate) fn new(family: &dyn Family) -> Self {
         let boxes = boxes(family);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |all, b| all.join(*b));
         let weights = (0..family.count()).map(|child| family.weight(child)).collect();

@@ -6,14 +6,14 @@ use nestray_core::beam::{Beam, Facing};
 use nestray_core::family::Family;
 use nestray_core::ray::{Ray, RayKind, Source};
 use nestray_core::simd::SCALAR;
-use nestray_core::technique::{Asks, Leaf, Leaves, Params, Technique, Walk};
+use nestray_core::technique::{Asks, Index, Leaf, Leaves, Technique, Walk};
 use nestray_core::trail::Trail;
 
-use super::{CellsIndex, Children, Cursor, Rule};
-use crate::bsp::{BspParams, InHalves};
+use super::{Cells, Children, Cursor};
+use crate::bsp::Bsp;
 use crate::counted::Numbers;
-use crate::kd_tree::ByArea;
-use crate::octree::{InEighths, OctreeParams};
+use crate::kd_tree::KdTree;
+use crate::octree::Octree;
 
 /// Boxes that nothing else is known of.
 struct Boxes(Vec<Aabb>);
@@ -72,24 +72,19 @@ pub(crate) fn children(seed: u64, count: usize) -> Children {
     Children::new(&boxes(seed, count))
 }
 
-fn tree<R: Rule>(params: &R::Params, family: &Boxes) -> (CellsIndex<R>, Leaves) {
+fn tree<T: Technique<Index = Cells>>(technique: &T, family: &Boxes) -> (Cells, Leaves) {
     let mut leaves = Leaves::default();
-    let tree = CellsIndex::build(params, family, &mut leaves);
+    let tree = technique.build(family, &mut leaves);
     (tree, leaves)
 }
 
 /// The cells with children in them.
-fn full<R: Rule>(tree: &CellsIndex<R>) -> Vec<(Aabb, Leaf)> {
+fn full(tree: &Cells) -> Vec<(Aabb, Leaf)> {
     tree.cells().into_iter().filter_map(|(bounds, leaf)| Some((bounds, leaf?))).collect()
 }
 
 /// Sends a ray through; calls `leaf` for all leaves and returns the number of steps.
-fn send<R: Rule>(
-    tree: &CellsIndex<R>,
-    family: &Boxes,
-    ray: &Ray,
-    mut leaf: impl FnMut(Leaf, &Cursor),
-) -> usize {
+fn send(tree: &Cells, family: &Boxes, ray: &Ray, mut leaf: impl FnMut(Leaf, &Cursor)) -> usize {
     let mut trail = Trail::new();
     let mut walk = Walk { ray, trail: &mut trail, family };
     let limit = ray.t_max();
@@ -107,11 +102,11 @@ fn send<R: Rule>(
     steps
 }
 
-fn every_point_of_a_child_is_in_a_cell_with_it<R: Rule>() {
+fn every_point_of_a_child_is_in_a_cell_with_it<T: Technique<Index = Cells>>() {
     let family = boxes(1, 300);
-    let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+    let (tree, leaves) = tree(&T::default(), &family);
     let cells = full(&tree);
-    assert!(cells.len() > 50, "{}: {} cells", R::NAME, cells.len());
+    assert!(cells.len() > 50, "{}: {} cells", T::NAME, cells.len());
     let mut numbers = Numbers::new(2);
     for child in 0..family.count() {
         let bounds = family.bounds(child);
@@ -122,28 +117,28 @@ fn every_point_of_a_child_is_in_a_cell_with_it<R: Rule>() {
                 let has = |&&(cell, leaf): &&(Aabb, Leaf)| {
                     cell.contains(&point) && leaves.of(leaf.0 as usize).contains(&child)
                 };
-                assert!(cells.iter().find(has).is_some(), "{}: child {child}", R::NAME);
+                assert!(cells.iter().find(has).is_some(), "{}: child {child}", T::NAME);
             }
         }
     }
     for (i, (a, _)) in cells.iter().enumerate() {
         for (b, _) in &cells[..i] {
             let both = a.meet(*b).size();
-            assert!(both.min_element() <= 0.0, "{}: {a:?} and {b:?} overlap", R::NAME);
+            assert!(both.min_element() <= 0.0, "{}: {a:?} and {b:?} overlap", T::NAME);
         }
     }
 }
 
 #[test]
 fn every_point_of_a_child_is_in_a_cell_with_it_and_cells_do_not_overlap() {
-    every_point_of_a_child_is_in_a_cell_with_it::<ByArea>();
-    every_point_of_a_child_is_in_a_cell_with_it::<InHalves>();
-    every_point_of_a_child_is_in_a_cell_with_it::<InEighths>();
+    every_point_of_a_child_is_in_a_cell_with_it::<KdTree>();
+    every_point_of_a_child_is_in_a_cell_with_it::<Bsp>();
+    every_point_of_a_child_is_in_a_cell_with_it::<Octree>();
 }
 
-fn cells_come_in_order<R: Rule>() {
+fn cells_come_in_order<T: Technique<Index = Cells>>() {
     let family = boxes(3, 1000);
-    let (tree, _) = tree::<R>(&R::Params::default(), &family);
+    let (tree, _) = tree(&T::default(), &family);
     let cells = full(&tree);
     let mut numbers = Numbers::new(4);
     for i in 0..2000 {
@@ -156,7 +151,7 @@ fn cells_come_in_order<R: Rule>() {
         let (mut last, mut shown) = (0.0, Vec::new());
         send(&tree, &family, &ray, |leaf, cursor| {
             let begin = cursor.span[0];
-            assert!(begin >= last - 1e-4, "{}, ray {i}: {begin} after {last}", R::NAME);
+            assert!(begin >= last - 1e-4, "{}, ray {i}: {begin} after {last}", T::NAME);
             last = begin;
             shown.push(leaf.0);
         });
@@ -166,20 +161,20 @@ fn cells_come_in_order<R: Rule>() {
             .filter(|(bounds, _)| clip.cut(bounds, ray.t_max()).is_some())
             .map(|(_, leaf)| leaf.0)
             .collect();
-        assert_eq!(shown, met, "{}, ray {i}: all the cells it meets, once each", R::NAME);
+        assert_eq!(shown, met, "{}, ray {i}: all the cells it meets, once each", T::NAME);
     }
 }
 
 #[test]
 fn a_ray_is_shown_all_cells_it_meets_once_and_in_order() {
-    cells_come_in_order::<ByArea>();
-    cells_come_in_order::<InHalves>();
-    cells_come_in_order::<InEighths>();
+    cells_come_in_order::<KdTree>();
+    cells_come_in_order::<Bsp>();
+    cells_come_in_order::<Octree>();
 }
 
-fn random_lines_do_what_is_expected<R: Rule>() {
+fn random_lines_do_what_is_expected<T: Technique<Index = Cells>>() {
     let family = boxes(5, 2000);
-    let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+    let (tree, leaves) = tree(&T::default(), &family);
     let expected = tree.expected(&family, &leaves);
     let (bounds, mut numbers) = (tree.bounds(), Numbers::new(6));
     let radius = bounds.size().length() / 2.0;
@@ -203,20 +198,20 @@ fn random_lines_do_what_is_expected<R: Rule>() {
         tests += tested.len();
     }
     let share = steps as f64 / f64::from(lines) / expected.steps;
-    assert!((0.98..1.02).contains(&share), "{}: steps {share} of expected", R::NAME);
+    assert!((0.98..1.02).contains(&share), "{}: steps {share} of expected", T::NAME);
     let sum: f64 = expected.tests.iter().copied().map(f64::from).sum();
     let share = tests as f64 / f64::from(lines) / sum;
-    assert!((0.8..1.2).contains(&share), "{}: tests {share} of expected", R::NAME);
+    assert!((0.8..1.2).contains(&share), "{}: tests {share} of expected", T::NAME);
 }
 
 #[test]
 fn random_lines_take_the_expected_steps_and_tests() {
-    random_lines_do_what_is_expected::<ByArea>();
-    random_lines_do_what_is_expected::<InHalves>();
-    random_lines_do_what_is_expected::<InEighths>();
+    random_lines_do_what_is_expected::<KdTree>();
+    random_lines_do_what_is_expected::<Bsp>();
+    random_lines_do_what_is_expected::<Octree>();
 }
 
-fn refinement_ends<R: Rule>() {
+fn refinement_ends<T: Technique<Index = Cells>>() {
     let one = Aabb { min: Vec3A::ZERO, max: Vec3A::ONE };
     let flat = Aabb { min: Vec3A::ZERO, max: Vec3A::new(1.0, 1.0, 0.0) };
     let point = Aabb { min: Vec3A::ONE, max: Vec3A::ONE };
@@ -225,45 +220,45 @@ fn refinement_ends<R: Rule>() {
         let mut all = vec![of; 1_000_000];
         all.push(far);
         let family = Boxes(all);
-        let (tree, leaves) = tree::<R>(&R::Params::default(), &family);
+        let (tree, leaves) = tree(&T::default(), &family);
         let entries: usize = (0..leaves.count()).map(|leaf| leaves.of(leaf).len()).sum();
-        assert!(entries <= 8 * family.0.len(), "{}: {entries} entries", R::NAME);
-        assert!(tree.cells().len() < 1000, "{}: {} cells", R::NAME, tree.cells().len());
+        assert!(entries <= 8 * family.0.len(), "{}: {entries} entries", T::NAME);
+        assert!(tree.cells().len() < 1000, "{}: {} cells", T::NAME, tree.cells().len());
     }
 }
 
 #[test]
 fn a_million_children_in_one_place_are_given_up_on() {
-    refinement_ends::<ByArea>();
-    refinement_ends::<InHalves>();
-    refinement_ends::<InEighths>();
+    refinement_ends::<KdTree>();
+    refinement_ends::<Bsp>();
+    refinement_ends::<Octree>();
 }
 
-fn edges_are_halves_of_halves<R: Rule>(params: &R::Params) {
-    let (tree, _) = tree::<R>(params, &boxes(7, 500));
+fn edges_are_halves_of_halves<T: Technique<Index = Cells>>(technique: &T) {
+    let (tree, _) = tree(technique, &boxes(7, 500));
     for (bounds, _) in tree.cells() {
         let times = tree.bounds().size() / bounds.size();
         for axis in 0..3 {
             let power = f64::from(times[axis]).log2();
-            assert!((power - power.round()).abs() < 1e-3, "{}: {power}", R::NAME);
+            assert!((power - power.round()).abs() < 1e-3, "{}: {power}", T::NAME);
         }
     }
 }
 
 #[test]
 fn cells_of_a_bsp_tree_and_an_octree_are_halves_of_halves() {
-    edges_are_halves_of_halves::<InHalves>(&BspParams::default());
-    edges_are_halves_of_halves::<InEighths>(&OctreeParams::default());
+    edges_are_halves_of_halves::<Bsp>(&Bsp::default());
+    edges_are_halves_of_halves::<Octree>(&Octree::default());
 }
 
 #[test]
 fn settings_next_to_the_usual_are_in_range() {
-    fn check<R: Rule>() {
-        let usual = R::Params::default();
+    fn check<T: Technique<Index = Cells>>() {
+        let usual = T::default();
         assert_eq!(usual.check(), Ok(()));
         assert!(usual.neighbours().iter().all(|next| next.check().is_ok() && *next != usual));
     }
-    check::<ByArea>();
-    check::<InHalves>();
-    check::<InEighths>();
+    check::<KdTree>();
+    check::<Bsp>();
+    check::<Octree>();
 }

@@ -7,13 +7,13 @@ use nestray_core::huge::Huge;
 use nestray_core::technique::{Leaves, Step};
 
 use super::resolution::resolution;
-use super::{EMPTY, GridIndex, GridParams, Span};
+use super::{EMPTY, Grid, GridIndex, Span};
 
 /// Boxes are widened by this part of a cell: the more, the farther away rays may start
 /// before neighbours of cells have to be shown.
 const PAD: f32 = 0.02;
 
-pub(super) fn build(params: &GridParams, family: &dyn Family, leaves: &mut Leaves) -> GridIndex {
+pub(super) fn build(params: &Grid, family: &dyn Family, leaves: &mut Leaves) -> GridIndex {
     let boxes = boxes(family);
     let bounds = boxes.iter().fold(Aabb::EMPTY, |all, b| all.join(*b));
     let bounds = thickened(bounds);

@@ -3,7 +3,7 @@
 use glam::Vec3A;
 use nestray_core::aabb::{Aabb, Clip};
 
-use super::GridParams;
+use super::Grid;
 
 /// Nanoseconds a step takes, about.
 const STEP: f64 = 4.0;
@@ -15,7 +15,7 @@ const SAMPLE: usize = 20_000;
 /// Cells along each axis: about cubical, as many as settings or expected cost say, and not
 /// so many that lists outgrow the children.
 pub(super) fn resolution(
-    params: &GridParams,
+    params: &Grid,
     bounds: Aabb,
     boxes: &[Aabb],
     weights: &[f32],
@@ -42,7 +42,7 @@ pub(super) fn resolution(
 }
 
 /// About cubical cells, `density` per child.
-fn cells(params: &GridParams, bounds: Aabb, children: usize, density: f32) -> [u32; 3] {
+fn cells(params: &Grid, bounds: Aabb, children: usize, density: f32) -> [u32; 3] {
     // In doubles: volumes of huge boxes overflow.
     let size = bounds.size().as_dvec3();
     let wanted = f64::from(density) * children as f64;

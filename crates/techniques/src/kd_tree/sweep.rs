@@ -2,7 +2,7 @@
 
 use crate::cells::{Cell, Plane};
 
-use super::KdTreeParams;
+use super::KdTree;
 
 /// Cells with more children are cut at one of a few equally spaced planes.
 const EXACT: usize = 64;
@@ -11,7 +11,7 @@ const BINS: usize = 32;
 
 /// A search for the best plane.
 pub(super) struct Sweep<'a> {
-    params: &'a KdTreeParams,
+    params: &'a KdTree,
     cell: &'a Cell<'a>,
     all: Side,
     best: Option<(Plane, f64)>,
@@ -36,7 +36,7 @@ impl Side {
 }
 
 impl<'a> Sweep<'a> {
-    pub(super) fn new(params: &'a KdTreeParams, cell: &'a Cell<'a>) -> Self {
+    pub(super) fn new(params: &'a KdTree, cell: &'a Cell<'a>) -> Self {
         let mut all = Side::default();
         for &child in cell.inside {
             all.add(f64::from(cell.children.weights[child as usize]));
@@ -156,7 +156,7 @@ mod tests {
             let inside: Vec<u32> = (0..children.boxes.len() as u32).collect();
             let cell =
                 Cell { bounds: children.bounds, depth: 0, inside: &inside, children: &children };
-            let params = KdTreeParams::default();
+            let params = KdTree::default();
             let sweep = Sweep::new(&params, &cell);
             let mut least = f64::INFINITY;
             for axis in 0..3 {

@@ -5,17 +5,16 @@ use nestray_core::aabb::Aabb;
 use nestray_core::family::Family;
 use nestray_core::technique::{Expected, Leaves, Step};
 
-use super::{RubinWhittedIndex, RubinWhittedParams, Turned};
-use crate::bvh::BvhIndex;
-use crate::wide_tree::area;
+use super::{RubinWhitted, RubinWhittedIndex, Turned};
+use crate::wide_tree::{WideTree, area};
 
 /// The parts of each node: boxes, and what they are.
 type Nodes = Vec<Vec<(Aabb, Step)>>;
 
 /// A note for each node, and the boxes of those that are turned.
 pub(super) fn turned(
-    params: &RubinWhittedParams,
-    tree: &BvhIndex,
+    params: &RubinWhitted,
+    tree: &WideTree,
     family: &dyn Family,
     leaves: &Leaves,
 ) -> (Vec<u32>, Vec<Turned>) {

@@ -25,8 +25,8 @@ fn rods(count: u32, seed: u64) -> Vec<AnyShape> {
 #[test]
 fn turned_boxes_save_tests_of_slanting_rods() {
     let tests = |gain| {
-        let params = RubinWhittedParams { gain, ..Default::default() };
-        expected_and_counted::<RubinWhittedIndex>(&params, &rods(500, 3), 4)[1][1]
+        let params = RubinWhitted { gain, ..Default::default() };
+        expected_and_counted(&params, &rods(500, 3), 4)[1][1]
     };
     let (turned, straight) = (tests(1.0), tests(100.0));
     assert!(turned < 0.3 * straight, "{turned} {straight}");
@@ -35,8 +35,8 @@ fn turned_boxes_save_tests_of_slanting_rods() {
 #[test]
 fn random_lines_do_what_is_expected() {
     for shapes in [spheres(500, 3), rods(500, 3)] {
-        let params = RubinWhittedParams::default();
-        for [expected, counted] in expected_and_counted::<RubinWhittedIndex>(&params, &shapes, 4) {
+        let params = RubinWhitted::default();
+        for [expected, counted] in expected_and_counted(&params, &shapes, 4) {
             assert!((counted / expected - 1.0).abs() < 0.2, "{counted} for {expected}");
         }
     }

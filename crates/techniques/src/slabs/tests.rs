@@ -1,10 +1,10 @@
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
-use nestray_core::technique::Params;
+use nestray_core::technique::Technique;
 
+use super::Slabs;
 use super::planes::SLANTING;
 use super::volume::Volume;
-use super::{SlabsIndex, SlabsParams};
 use crate::counted::{expected_and_counted, spheres};
 
 #[test]
@@ -22,9 +22,8 @@ fn the_surface_of_a_volume_is_that_of_the_body_between_its_planes() {
 #[test]
 fn random_lines_do_what_is_expected() {
     for sets in [3, 7, 9, 13] {
-        let params = SlabsParams { sets, ..SlabsParams::default() };
-        for [expected, counted] in expected_and_counted::<SlabsIndex>(&params, &spheres(500, 3), 4)
-        {
+        let params = Slabs { sets, ..Slabs::default() };
+        for [expected, counted] in expected_and_counted(&params, &spheres(500, 3), 4) {
             let off = (counted / expected - 1.0).abs();
             assert!(off < 0.03, "{sets} sets: {counted} for {expected}");
         }
@@ -34,8 +33,8 @@ fn random_lines_do_what_is_expected() {
 #[test]
 fn more_planes_mean_fewer_tests() {
     let tests = |sets| {
-        let params = SlabsParams { sets, ..SlabsParams::default() };
-        expected_and_counted::<SlabsIndex>(&params, &spheres(500, 3), 4)[1][1]
+        let params = Slabs { sets, ..Slabs::default() };
+        expected_and_counted(&params, &spheres(500, 3), 4)[1][1]
     };
     let (boxes, diagonals, all) = (tests(3), tests(7), tests(13));
     assert!(diagonals < 0.9 * boxes && all < diagonals, "{boxes} {diagonals} {all}");
@@ -44,8 +43,8 @@ fn more_planes_mean_fewer_tests() {
 #[test]
 fn only_the_numbers_of_sets_that_exist_are_taken() {
     for sets in 0..20 {
-        let params = SlabsParams { sets, ..SlabsParams::default() };
+        let params = Slabs { sets, ..Slabs::default() };
         assert_eq!(params.check().is_ok(), [3, 7, 9, 13].contains(&sets));
     }
-    assert_eq!(SlabsParams::default().neighbours().len(), 5);
+    assert_eq!(Slabs::default().neighbours().len(), 5);
 }

@@ -7,12 +7,11 @@ use nestray_core::technique::{Expected, Leaves, Step};
 use rayon::prelude::*;
 
 use super::{SlabsIndex, planes};
-use crate::bvh::BvhIndex;
-use crate::wide_tree::area;
+use crate::wide_tree::{WideTree, area};
 
 /// For each node of `tree`, and each direction, how far its eight parts reach.
 pub(super) fn rows(
-    tree: &BvhIndex,
+    tree: &WideTree,
     family: &dyn Family,
     leaves: &Leaves,
     directions: &[Vec3A],

@@ -81,7 +81,7 @@ fn inner(node: &Node) -> u32 {
     (0..8).fold(0, |mask, lane| mask | (!node.words[lane] >> 31) << lane)
 }
 
-impl<B> WideTree<B> {
+impl WideTree {
     /// See [`gather`](nestray_core::technique::Technique::gather).
     #[inline(always)]
     pub(super) fn gather_nodes<S: Simd>(
