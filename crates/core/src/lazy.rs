@@ -1,8 +1,6 @@
 //! An object built when the first ray comes.
 
 use std::fmt;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::aabb::Aabb;
 use crate::cost::{Cost, CostModel};
@@ -10,6 +8,7 @@ use crate::hit::Hit;
 use crate::object::Object;
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
+use crate::slot::Slot;
 use crate::surface::Surface;
 
 /// Answers by a stand-in until it is built. The first ray that asks builds it; others that
@@ -19,20 +18,14 @@ pub struct Lazy<O, S> {
     /// Holds the same geometry, cheap to make and slow to search: a list.
     stand_in: S,
     build: Box<dyn Fn() -> O + Send + Sync>,
-    begun: AtomicBool,
-    built: OnceLock<O>,
+    built: Slot<O>,
 }
 
 impl<O: Object, S: Object> Lazy<O, S> {
     /// `build` must make an object that answers as `stand_in` does; it is called once at most.
     #[must_use]
     pub fn new(stand_in: S, build: impl Fn() -> O + Send + Sync + 'static) -> Self {
-        Self {
-            stand_in,
-            build: Box::new(build),
-            begun: AtomicBool::new(false),
-            built: OnceLock::new(),
-        }
+        Self { stand_in, build: Box::new(build), built: Slot::new() }
     }
 
     /// Whether it has been built.
@@ -43,18 +36,9 @@ impl<O: Object, S: Object> Lazy<O, S> {
     /// What answers now, building it if nobody has begun to.
     #[inline]
     fn now(&self) -> &dyn Object {
-        match self.built.get() {
-            Some(built) => built,
-            None => self.not_yet(),
-        }
-    }
-
-    #[cold]
-    fn not_yet(&self) -> &dyn Object {
-        if self.begun.swap(true, Ordering::Relaxed) {
-            return &self.stand_in;
-        }
-        self.built.get_or_init(|| (self.build)())
+        self.built
+            .get_or_make(|| (self.build)())
+            .map_or(&self.stand_in as &dyn Object, |built| built)
     }
 
     /// What answers now, without building.

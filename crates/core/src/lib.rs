@@ -47,6 +47,7 @@ pub mod mailbox;
 pub mod scratch;
 
 pub mod simd;
+pub mod slot;
 
 pub mod trail;
 
