@@ -90,10 +90,13 @@ impl Default for CostModel {
             transform: 20.0,
             primitive: named(&[("triangle", 3.0)]),
             step: named(&[
+                ("adaptive-grid", 5.0),
                 ("bvh", 10.0),
                 ("goldsmith-salmon", 10.0),
                 ("grid", 4.0),
                 ("list", 0.0),
+                ("macro-regions", 5.0),
+                ("nested-grid", 5.0),
                 ("ploc", 10.0),
                 ("rubin-whitted", 12.0),
                 ("slabs", 14.0),

@@ -16,7 +16,7 @@ use crate::kd_tree::KdTree;
 use crate::octree::Octree;
 
 /// Boxes that nothing else is known of.
-struct Boxes(Vec<Aabb>);
+pub(crate) struct Boxes(pub(crate) Vec<Aabb>);
 
 impl Family for Boxes {
     fn count(&self) -> u32 {
@@ -58,7 +58,7 @@ impl Family for Boxes {
 }
 
 /// Boxes of all sizes, more of them towards one corner.
-fn boxes(seed: u64, count: usize) -> Boxes {
+pub(crate) fn boxes(seed: u64, count: usize) -> Boxes {
     let mut numbers = Numbers::new(seed);
     let mut next = || {
         let min = numbers.point() * numbers.point();

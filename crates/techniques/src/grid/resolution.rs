@@ -6,7 +6,7 @@ use nestray_core::aabb::{Aabb, Clip};
 use super::Grid;
 
 /// Nanoseconds a step takes, about.
-const STEP: f64 = 4.0;
+pub(crate) const STEP: f64 = 4.0;
 /// Densities to choose from, in cells per child.
 const DENSITIES: [f32; 8] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 /// Children looked at to choose, evenly spread.
@@ -69,7 +69,7 @@ fn cube_root(x: f64) -> f64 {
 }
 
 /// Mean number of cells a random line crosses: `Σ nᵢAᵢ / ΣA`, with `Aᵢ` the faces.
-pub(super) fn steps(cells: [u32; 3], bounds: Aabb) -> f64 {
+pub(crate) fn steps(cells: [u32; 3], bounds: Aabb) -> f64 {
     let s = bounds.size().as_dvec3();
     let faces = [s.y * s.z, s.z * s.x, s.x * s.y];
     let all: f64 = faces.iter().sum();
@@ -77,19 +77,26 @@ pub(super) fn steps(cells: [u32; 3], bounds: Aabb) -> f64 {
 }
 
 /// The children, for trying a resolution on them.
-struct Counted<'a> {
-    bounds: Aabb,
-    boxes: &'a [Aabb],
-    weights: &'a [f32],
-    together: u32,
+pub(crate) struct Counted<'a> {
+    /// What is cut into cells.
+    pub(crate) bounds: Aabb,
+    /// Their boxes.
+    pub(crate) boxes: &'a [Aabb],
+    /// What testing each costs, in nanoseconds.
+    pub(crate) weights: &'a [f32],
+    /// How many are tested at once.
+    pub(crate) together: u32,
 }
 
 impl Counted<'_> {
     /// Some children, and how many each stands for.
     fn sample(&self) -> (impl Iterator<Item = usize>, f64) {
-        let stride = self.boxes.len().div_ceil(SAMPLE);
-        let taken = self.boxes.len().div_ceil(stride);
-        ((0..self.boxes.len()).step_by(stride), self.boxes.len() as f64 / taken as f64)
+        let (all, stride) = (self.boxes.len(), self.boxes.len().div_ceil(SAMPLE));
+        let taken = all.div_ceil(stride);
+        // Not each at the same place of its stride: children may repeat themselves.
+        let place = move |i: usize| (i.wrapping_mul(0x9E37_79B9) >> 8) % stride;
+        let sample = (0..taken).map(move |i| (i * stride + place(i)).min(all - 1));
+        (sample, all as f64 / taken as f64)
     }
 
     /// Edges of the block of cells around a box, on average over where walls may be, and how
@@ -100,7 +107,7 @@ impl Counted<'_> {
     }
 
     /// Whether there are not too many cells, nor entries in their lists.
-    fn fits(&self, cells: [u32; 3]) -> bool {
+    pub(crate) fn fits(&self, cells: [u32; 3]) -> bool {
         let count = self.boxes.len() as f64;
         let all = cells.iter().map(|&n| f64::from(n)).product::<f64>();
         let cell = self.bounds.size() / Vec3A::from_array(cells.map(|n| n as f32));
@@ -113,7 +120,12 @@ impl Counted<'_> {
     }
 
     /// Nanoseconds a random line takes, all the way through.
-    fn cost(&self, cells: [u32; 3]) -> f64 {
+    pub(crate) fn cost(&self, cells: [u32; 3]) -> f64 {
+        steps(cells, self.bounds) * STEP + self.tests(cells)
+    }
+
+    /// Nanoseconds that tests of children take of that.
+    pub(crate) fn tests(&self, cells: [u32; 3]) -> f64 {
         let cell = self.bounds.size() / Vec3A::from_array(cells.map(|n| n as f32));
         let area = |s: Vec3A| {
             let s = s.as_dvec3();
@@ -127,6 +139,6 @@ impl Counted<'_> {
             let reached = if self.together > 1 { count * area(cell) } else { area(block) };
             reached / whole * f64::from(self.weights[child])
         });
-        steps(cells, self.bounds) * STEP + tests.sum::<f64>() * each
+        tests.sum::<f64>() * each
     }
 }
