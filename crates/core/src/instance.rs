@@ -17,6 +17,9 @@ pub trait Motion: Debug + Send + Sync {
     /// What [`Object::kind`] says of an object so placed.
     const KIND: &'static str;
 
+    /// Whether it ever moves.
+    const MOVES: bool;
+
     /// Into the space of the object at `time`; none if the object is flattened then, and so
     /// cannot be hit.
     fn object_from_world(&self, time: f32) -> Option<Affine3A>;
@@ -42,7 +45,7 @@ pub type Instance<O> = Placed<O, Still>;
 
 /// An object somewhere else; see [`Instance`] and [`Moving`](crate::moving::Moving).
 ///
-/// A ray is cut to the part within the bounds before it is moved. Rounding in a transform
+/// A ray is cut to the part within the bounds at its time before it is moved. Rounding in a transform
 /// far from a rotation could otherwise put a hit outside the bounds, where one technique
 /// looks and another does not.
 #[derive(Debug)]
@@ -86,6 +89,10 @@ impl<O: Object, M: Motion> Placed<O, M> {
         if self.bounds.is_bounded() {
             let clip = Clip::with_slack(ray, self.bounds.reach(), SLACK);
             (enter, leave) = clip.cut(&self.bounds, ray.t_max())?;
+            if M::MOVES {
+                let now = self.bounds_during([ray.time(); 2]).meet(self.bounds);
+                (enter, leave) = clip.cut(&now, ray.t_max())?;
+            }
             if enter > limit {
                 return None;
             }
@@ -217,6 +224,7 @@ impl Still {
 
 impl Motion for Still {
     const KIND: &'static str = "instance";
+    const MOVES: bool = false;
 
     #[inline(always)]
     fn object_from_world(&self, _time: f32) -> Option<Affine3A> {

@@ -59,6 +59,7 @@ impl Keys {
 
 impl Motion for Keys {
     const KIND: &'static str = "moving";
+    const MOVES: bool = true;
 
     fn object_from_world(&self, time: f32) -> Option<Affine3A> {
         inverse(&self.world_from_object(time))
