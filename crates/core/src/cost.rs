@@ -96,10 +96,12 @@ impl Default for CostModel {
                 ("grid", 4.0),
                 ("list", 0.0),
                 ("macro-regions", 5.0),
+                ("motion-bvh", 14.0),
                 ("nested-grid", 5.0),
                 ("ploc", 10.0),
                 ("rubin-whitted", 12.0),
                 ("slabs", 14.0),
+                ("spacetime", 12.0),
             ]),
             kind: None,
         }

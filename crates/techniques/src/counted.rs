@@ -42,7 +42,7 @@ impl Numbers {
     }
 
     /// A line such that all that meet `bounds` are as likely.
-    fn line(&mut self, bounds: &Aabb) -> Ray {
+    pub(crate) fn line(&mut self, bounds: &Aabb) -> Ray {
         let radius = 0.51 * bounds.size().length();
         loop {
             let dir = self.direction();

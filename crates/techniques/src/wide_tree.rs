@@ -7,6 +7,7 @@ mod binary;
 mod collapse;
 mod gather;
 mod kernel;
+mod parts;
 
 use nestray_core::aabb::Aabb;
 use nestray_core::bundle::{Bundle, Entrance};
@@ -17,6 +18,7 @@ use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Ste
 use nestray_core::trail::{self, Top, Trail};
 
 pub use self::binary::{Binary, Contents, Pair, area, in_halves};
+pub(crate) use self::collapse::{Forests, MAX_DEPTH};
 pub use self::kernel::Cursor;
 
 /// A tree of boxes, eight to a node.

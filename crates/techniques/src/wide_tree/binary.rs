@@ -18,7 +18,7 @@ pub struct Contents {
 }
 
 impl Contents {
-    pub(super) fn new(family: &dyn Family) -> Self {
+    pub(crate) fn new(family: &dyn Family) -> Self {
         let weights = (0..family.count()).map(|child| family.weight(child)).collect();
         Self { boxes: family::boxes(family), weights, together: family.together() }
     }
@@ -31,7 +31,7 @@ impl Contents {
     }
 
     /// What testing `children` as one leaf costs, in visits of a node.
-    pub(super) fn leaf_cost(&self, size: LeafSize, children: &[u32]) -> f32 {
+    pub(crate) fn leaf_cost(&self, size: LeafSize, children: &[u32]) -> f32 {
         /// Nanoseconds a visit of a node takes, about.
         const VISIT: f32 = 10.0;
         if self.together > 1 {
