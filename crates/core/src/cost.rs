@@ -99,6 +99,7 @@ impl Default for CostModel {
                 ("motion-bvh", 14.0),
                 ("nested-grid", 5.0),
                 ("ploc", 10.0),
+                ("reinsertion", 10.0),
                 ("rubin-whitted", 12.0),
                 ("slabs", 14.0),
                 ("spacetime", 12.0),

@@ -17,7 +17,7 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Top, Trail};
 
-pub use self::binary::{Binary, Contents, Pair, area, in_halves};
+pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
 pub(crate) use self::collapse::{Forests, MAX_DEPTH};
 pub use self::kernel::Cursor;
 

@@ -4,7 +4,7 @@ use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::family::{self, Family};
 
-use super::LeafSize;
+use super::{LeafSize, collapse};
 
 /// What a builder knows of the children.
 #[derive(Debug)]
@@ -78,6 +78,15 @@ pub struct Binary<'a> {
     pub pairs: Vec<Pair>,
 }
 
+/// What a binary tree becomes as a wide one.
+#[derive(Clone, Debug)]
+pub struct Outlook {
+    /// What a random ray costs, in visits of a node; none if the tree would be too deep.
+    pub cost: Option<f64>,
+    /// Which of the binary nodes are best made leaves, unless they are inside one.
+    pub leaves: Vec<bool>,
+}
+
 impl<'a> Binary<'a> {
     /// The tree in which merge `i` makes one subtree, called `children + i`, of two that were
     /// called before; children are called by their numbers. The last merge makes the root.
@@ -112,6 +121,12 @@ impl<'a> Binary<'a> {
             }
         }
         tree
+    }
+
+    /// What it becomes as a wide tree, for builders that compare.
+    #[must_use]
+    pub fn outlook(&self, size: LeafSize) -> Outlook {
+        collapse::outlook(size, self)
     }
 
     /// The children below a node.

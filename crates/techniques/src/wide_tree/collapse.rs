@@ -2,7 +2,7 @@
 
 use nestray_core::technique::{Leaves, Step};
 
-use super::binary::{Binary, Pair};
+use super::binary::{Binary, Outlook, Pair};
 use super::{LeafSize, Node};
 
 /// Deepest tree a [`Trail`](nestray_core::trail::Trail) has room for.
@@ -20,11 +20,7 @@ pub(super) fn collapsed<'a>(
 ) -> Vec<Node> {
     for halves_from in HALVES_FROM {
         let binary = build(halves_from);
-        let forests = Forests::new(size.most, &binary.pairs, |i| {
-            let pair = &binary.pairs[i];
-            let area = pair.bounds.surface_area();
-            [area, area * binary.of.leaf_cost(size, binary.below(pair))]
-        });
+        let forests = forests(size, &binary);
         let mut out =
             Emit { binary: &binary, forests: &forests, nodes: Vec::new(), leaves, depth: 0 };
         if forests.depth(&binary.pairs) <= MAX_DEPTH {
@@ -34,6 +30,26 @@ pub(super) fn collapsed<'a>(
         }
     }
     unreachable!("a tree split in halves is shallow")
+}
+
+/// What becomes of a binary tree.
+pub(super) fn outlook(size: LeafSize, binary: &Binary<'_>) -> Outlook {
+    let forests = forests(size, binary);
+    let whole = binary.pairs[0].bounds.surface_area().max(f32::MIN_POSITIVE);
+    let cost = f64::from(forests.cost[0][0]) / f64::from(whole);
+    Outlook {
+        cost: (forests.depth(&binary.pairs) <= MAX_DEPTH).then_some(cost),
+        leaves: (0..binary.pairs.len() as u32).map(|i| forests.is_leaf(i)).collect(),
+    }
+}
+
+/// How best to cut up a binary tree of boxes.
+fn forests(size: LeafSize, binary: &Binary<'_>) -> Forests {
+    Forests::new(size.most, &binary.pairs, |i| {
+        let pair = &binary.pairs[i];
+        let area = pair.bounds.surface_area();
+        [area, area * binary.of.leaf_cost(size, binary.below(pair))]
+    })
 }
 
 /// How best to cut each binary subtree into at most 1, 2, … 8 wide ones, by dynamic
