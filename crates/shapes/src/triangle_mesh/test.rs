@@ -144,10 +144,7 @@ pub(super) fn hits<S: Simd, L: Layout>(
         mask &= if *sides == Sides::Front { front } else { !front };
     }
     let depths = L::depths(simd, block);
-    let inverse = simd.div(simd.splat(1.0), sum);
-    // Weights first: they are at most 1, so that the sum lies between the depths, and nothing
-    // overflows.
-    let weights = [simd.mul(u, inverse), simd.mul(v, inverse), simd.mul(w, inverse)];
+    let weights = weighed(simd, shear, block, (edges, sum), depths, mask);
     let sum = simd.add(simd.mul(weights[0], depths[0]), simd.mul(weights[1], depths[1]));
     let depth =
         within_bounds(simd, shear, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
@@ -171,11 +168,64 @@ fn inside<S: Simd>(simd: S, [u, v, w]: [S::F32; 3]) -> u32 {
     simd.le(zero, least) | simd.le(most, zero)
 }
 
-/// Depths moved to where the ray is within the box of each triangle.
+/// Weights of the corners, in the lanes of `mask`, by the edge functions and their sum.
+#[inline(always)]
+fn weighed<S: Simd>(
+    simd: S,
+    shear: &Shear,
+    block: &Block<S>,
+    ([u, v, w], sum): ([S::F32; 3], S::F32),
+    depths: [S::F32; 3],
+    mask: u32,
+) -> [S::F32; 3] {
+    let inverse = simd.div(simd.splat(1.0), sum);
+    // Divided before they are summed: they are at most 1, so that the depth lies between those of
+    // the corners, and nothing overflows.
+    let weights = [simd.mul(u, inverse), simd.mul(v, inverse), simd.mul(w, inverse)];
+    let unsure = mask & !are_sure(simd, shear, block, depths, sum);
+    if unsure == 0 {
+        return weights;
+    }
+    let arrays = |p: [S::F32; 3]| [simd.array(p[0]), simd.array(p[1])];
+    let [a, b, c] = block.corners;
+    let corners = [arrays(a), arrays(b), arrays(c)];
+    let rounded = [simd.array(weights[0]), simd.array(weights[1]), simd.array(weights[2])];
+    let fixed = exact::weights(unsure, corners, rounded);
+    [simd.load(&fixed[0]), simd.load(&fixed[1]), simd.load(&fixed[2])]
+}
+
+/// Lanes where rounding of the edge functions, whose sum is given, moves the hit no farther than
+/// rounding of the corners does.
 ///
-/// Of a triangle seen nearly from its side the weights are mostly rounding, and the hit may
-/// be anywhere along it. Without this, one technique in a hundred thousand rays would look
-/// for the hit where another does not.
+/// Of a triangle seen nearly from its side, or a long thin one, the weights may be mostly
+/// rounding, and the hit anywhere along it: off the part of the triangle that the ray meets, where
+/// a technique that cuts up triangles would look for it.
+#[inline(always)]
+fn are_sure<S: Simd>(
+    simd: S,
+    shear: &Shear,
+    block: &Block<S>,
+    [az, bz, cz]: [S::F32; 3],
+    sum: S::F32,
+) -> u32 {
+    let [a, b, c] = block.corners;
+    let size = |a: S::F32| simd.max(a, simd.sub(simd.splat(0.0), a));
+    let least = |axis: usize| simd.min(simd.min(a[axis], b[axis]), c[axis]);
+    let most = |axis: usize| simd.max(simd.max(a[axis], b[axis]), c[axis]);
+    let wide =
+        simd.max(simd.max(size(least(0)), size(most(0))), simd.max(size(least(1)), size(most(1))));
+    let (near, far) = (simd.min(simd.min(az, bz), cz), simd.max(simd.max(az, bz), cz));
+    // Edge functions are off by 12 half-ulps of `wide²` together; 24 of the largest coordinate
+    // are allowed, of which this is at most a quarter.
+    let origin = shear.origin;
+    let reach = origin[0].abs().max(origin[1].abs()).max(origin[2].abs());
+    let reach = simd.add(simd.max(size(near), size(far)), simd.splat(2.0 * reach));
+    let off = simd.mul(simd.sub(far, near), simd.mul(wide, wide));
+    simd.le(off, simd.mul(reach, size(sum)))
+}
+
+/// Depths moved to where the ray is within the box of each triangle: nearly always they are, but
+/// techniques must agree on every ray.
 #[inline(always)]
 fn within_bounds<S: Simd>(
     simd: S,

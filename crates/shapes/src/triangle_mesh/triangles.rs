@@ -220,11 +220,19 @@ impl Triangles {
         if !whole.overlaps(cell) {
             return Aabb::EMPTY;
         }
-        let mut part: Vec<[f64; 3]> = self.corners(triangle).map(|c| c.map(f64::from)).to_vec();
+        let mut part = Polygon::new(self.corners(triangle));
         for axis in 0..3 {
-            part = cut(&part, axis, f64::from(cell.min[axis]), 1.0);
-            part = cut(&part, axis, f64::from(cell.max[axis]), -1.0);
+            if whole.min[axis] < cell.min[axis] {
+                part = part.cut(axis, f64::from(cell.min[axis]), 1.0);
+            }
+            if whole.max[axis] > cell.max[axis] {
+                part = part.cut(axis, f64::from(cell.max[axis]), -1.0);
+            }
         }
+        if part.is_full {
+            return whole.meet(*cell);
+        }
+        let part = part.corners();
         let low = |axis: usize| part.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
         let high = |axis: usize| part.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
         if part.is_empty() {
@@ -234,21 +242,55 @@ impl Triangles {
     }
 }
 
-/// The part of a convex polygon on one side of a plane across an axis [Sutherland 74].
-fn cut(polygon: &[[f64; 3]], axis: usize, wall: f64, side: f64) -> Vec<[f64; 3]> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (i, &a) in polygon.iter().enumerate() {
-        let b = polygon[(i + 1) % polygon.len()];
-        let (from, to) = ((a[axis] - wall) * side, (b[axis] - wall) * side);
-        if from >= 0.0 {
-            kept.push(a);
+/// A part of a triangle: each of six cuts adds a corner, rarely more by rounding.
+#[derive(Clone, Copy)]
+struct Polygon {
+    corners: [[f64; 3]; 12],
+    count: usize,
+    /// Whether a corner was left out.
+    is_full: bool,
+}
+
+impl Polygon {
+    const EMPTY: Self = Self { corners: [[0.0; 3]; 12], count: 0, is_full: false };
+
+    fn new(triangle: [[f32; 3]; 3]) -> Self {
+        let mut whole = Self::EMPTY;
+        for corner in triangle {
+            whole.push(corner.map(f64::from));
         }
-        if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
-            let part = from / (from - to);
-            let mut between = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
-            between[axis] = wall;
-            kept.push(between);
-        }
+        whole
     }
-    kept
+
+    fn corners(&self) -> &[[f64; 3]] {
+        &self.corners[..self.count]
+    }
+
+    fn push(&mut self, corner: [f64; 3]) {
+        let Some(next) = self.corners.get_mut(self.count) else {
+            self.is_full = true;
+            return;
+        };
+        *next = corner;
+        self.count += 1;
+    }
+
+    /// The part on one side of a plane across an axis [Sutherland 74].
+    fn cut(&self, axis: usize, wall: f64, side: f64) -> Self {
+        let mut kept = Self { is_full: self.is_full, ..Self::EMPTY };
+        for (i, &a) in self.corners().iter().enumerate() {
+            let b = self.corners[(i + 1) % self.count];
+            let (from, to) = ((a[axis] - wall) * side, (b[axis] - wall) * side);
+            if from >= 0.0 {
+                kept.push(a);
+            }
+            if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
+                let part = from / (from - to);
+                let mut between = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
+                between[axis] = wall;
+                kept.push(between);
+            }
+        }
+        kept
+    }
 }
