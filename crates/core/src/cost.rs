@@ -101,6 +101,7 @@ impl Default for CostModel {
                 ("ploc", 10.0),
                 ("reinsertion", 10.0),
                 ("rubin-whitted", 12.0),
+                ("sbvh", 10.0),
                 ("slabs", 14.0),
                 ("spacetime", 12.0),
             ]),

@@ -31,6 +31,9 @@ pub trait Technique:
     /// What it makes of children.
     type Index: Index;
 
+    /// In how many leaves a child stands at most, on average.
+    const COPIES: usize = Self::Index::COPIES;
+
     /// Puts a family in order. Every child must be pushed into a leaf, unless the index
     /// [`LISTS`](Index::LISTS).
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Self::Index;

@@ -9,12 +9,12 @@ mod gather;
 mod kernel;
 mod parts;
 
-use nestray_core::aabb::Aabb;
+use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
 use nestray_core::huge::Huge;
 use nestray_core::simd::Simd;
-use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
+use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Visit, Walk};
 use nestray_core::trail::{self, Top, Trail};
 
 pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
@@ -27,6 +27,10 @@ pub struct WideTree {
     nodes: Huge<Node>,
     /// Largest coordinate of the boxes, which rounding errors are relative to.
     reach: f32,
+    /// How far rounding may move a box or a hit, relative to that.
+    slack: f32,
+    /// Whether children may stand in several leaves.
+    is_split: bool,
 }
 
 /// How many children a leaf may have, and what it costs.
@@ -61,15 +65,17 @@ impl WideTree {
         build: impl for<'a> Fn(&'a Contents, usize) -> Binary<'a>,
     ) -> Self {
         let of = Contents::new(family);
-        let nodes = collapse::collapsed(size, leaves, |halves_from| build(&of, halves_from));
+        let (nodes, is_split) =
+            collapse::collapsed(size, leaves, |halves_from| build(&of, halves_from));
         let reach = of.boxes.iter().fold(0f32, |reach, bounds| reach.max(bounds.reach()));
-        Self { nodes: Huge::new(&nodes, 0), reach }
+        let slack = if is_split { SPLIT_SLACK } else { Clip::SLACK };
+        Self { nodes: Huge::new(&nodes, 0), reach, slack, is_split }
     }
 
     /// Where a ray begins.
     #[inline(always)]
     pub(crate) fn cursor(&self, walk: &mut Walk<'_>) -> Cursor {
-        Cursor::new(walk.ray, self.reach, walk.trail.reset())
+        Cursor::new(walk.ray, self.reach, self.slack, walk.trail.reset())
     }
 
     /// What the lanes of a node are.
@@ -123,15 +129,24 @@ impl WideTree {
     }
 }
 
+/// How far rounding may move a box or a hit, relative to the largest coordinate, where children
+/// are split: a hit is near the part of its child in some leaf, but not cut to the box of it.
+const SPLIT_SLACK: f32 = 3.0 * Clip::SLACK;
+
 impl Index for WideTree {
-    const REPEATS: Repeats = Repeats::Never;
+    const REPEATS: Repeats = Repeats::ByRule;
+    const COPIES: usize = 1;
     const GATHERS: bool = true;
     type Cursor = Cursor;
 
-    /// A node is visited as often as its surface is to the root's [Goldsmith 87].
+    /// A node is visited as often as its surface is to the root's [Goldsmith 87]. A child in
+    /// several leaves is tested once, if not packed: at most as often as the box around them is
+    /// met.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {
         let mut tests = vec![0.0; family.count() as usize];
         let mut steps = 0.0;
+        let is_once = self.is_split && family.together() == 1;
+        let mut hulls = vec![Aabb::EMPTY; if is_once { tests.len() } else { 0 }];
         let root = (0..8).map(|lane| self.nodes[0].bounds(lane)).reduce(|a, b| a.join(b));
         let whole = root.map_or(1.0, |b| b.surface_area().max(f32::MIN_POSITIVE));
         for node in &*self.nodes {
@@ -143,10 +158,16 @@ impl Index for WideTree {
                 if !word.is_onward() && part.is_bounded() {
                     for &child in leaves.of(word.as_leaf().0 as usize) {
                         tests[child as usize] += (part.surface_area() / whole).min(1.0);
+                        if let Some(hull) = hulls.get_mut(child as usize) {
+                            *hull = hull.join(part);
+                        }
                     }
                 }
             }
             steps += f64::from((bounds.surface_area() / whole).min(1.0));
+        }
+        for (tests, hull) in tests.iter_mut().zip(hulls) {
+            *tests = tests.min(hull.surface_area() / whole);
         }
         Expected { steps, tests }
     }
@@ -224,6 +245,11 @@ impl Index for WideTree {
     #[inline(always)]
     fn address(&self, _cursor: &Cursor, at: Step) -> *const u8 {
         self.nodes.as_ptr().wrapping_add(at.word() as usize).cast()
+    }
+
+    #[inline(always)]
+    fn visit(&self, _cursor: &Cursor, _child: u32) -> Visit {
+        if self.is_split { Visit::Unknown } else { Visit::First }
     }
 }
 

@@ -24,6 +24,10 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// once.
     const REPEATS: Repeats;
 
+    /// In how many leaves a child stands at most, on average, unless the technique says
+    /// otherwise.
+    const COPIES: usize = if matches!(Self::REPEATS, Repeats::Never) { 1 } else { 8 };
+
     /// Whether leaves are listed by the technique itself, while rays fly ([`listed`]), and
     /// not pushed when it is built. For techniques that refine themselves lazily.
     ///

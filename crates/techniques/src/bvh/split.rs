@@ -7,18 +7,22 @@ use rayon::prelude::*;
 use crate::wide_tree::Contents;
 
 /// "Bins up to `last` go left", along one axis.
-pub(super) struct Plane {
+pub(crate) struct Plane {
     axis: usize,
     low: f32,
     scale: f32,
-    pub(super) last: usize,
+    last: usize,
     bins: usize,
+    /// `area × Σ weights` on both sides.
+    pub(crate) cost: f32,
 }
 
 impl Plane {
+    /// Whether a child is on the left, by twice the centre of its box.
     #[inline]
-    pub(super) fn bin(&self, center: Vec3A) -> usize {
-        (((center[self.axis] - self.low) * self.scale) as usize).min(self.bins - 1)
+    pub(crate) fn is_left(&self, center: Vec3A) -> bool {
+        let bin = (((center[self.axis] - self.low) * self.scale) as usize).min(self.bins - 1);
+        bin <= self.last
     }
 }
 
@@ -26,7 +30,7 @@ impl Plane {
 pub(super) const SHARED: usize = 16_384;
 
 /// The plane with the least `area × Σ weights` on both sides, if any separates.
-pub(super) fn best_plane(most_bins: usize, of: &Contents, children: &[u32]) -> Option<Plane> {
+pub(crate) fn best_plane(most_bins: usize, of: &Contents, children: &[u32]) -> Option<Plane> {
     match children.len() {
         ..16 => best_of::<8>(8, of, children),
         16..128 => best_of::<16>(16, of, children),
@@ -44,7 +48,7 @@ fn best_of<const MOST: usize>(bins: usize, of: &Contents, children: &[u32]) -> O
         let at = (center - centers.min) * scale;
         [at.x, at.y, at.z].map(|at| (at as usize).min(bins - 1))
     });
-    let mut best: Option<(f32, Plane)> = None;
+    let mut best: Option<Plane> = None;
     for axis in (0..3).filter(|&axis| size[axis] > 0.0) {
         let mut right = [0.0; MOST];
         let mut all = Bin::EMPTY;
@@ -59,13 +63,13 @@ fn best_of<const MOST: usize>(bins: usize, of: &Contents, children: &[u32]) -> O
                 continue;
             }
             let cost = all.cost() + right[last + 1];
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            if best.as_ref().is_none_or(|best| cost < best.cost) {
                 let (low, scale) = (centers.min[axis], scale[axis]);
-                best = Some((cost, Plane { axis, low, scale, last, bins }));
+                best = Some(Plane { axis, low, scale, last, bins, cost });
             }
         }
     }
-    best.map(|(_, plane)| plane)
+    best
 }
 
 /// A box around the centres.
@@ -142,7 +146,7 @@ impl Bin {
 }
 
 /// Moves the children that satisfy `left` to the front; returns how many.
-pub(super) fn partition(children: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
+pub(crate) fn partition(children: &mut [u32], left: impl Fn(u32) -> bool) -> usize {
     let mut middle = 0;
     for i in 0..children.len() {
         if left(children[i]) {

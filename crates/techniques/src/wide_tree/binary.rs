@@ -67,7 +67,8 @@ impl Pair {
     }
 }
 
-/// A binary tree, the root first, parents before what is below.
+/// A binary tree, the root first, parents before what is below. A child may stand in it several
+/// times, each with a box around a part of it.
 #[derive(Debug)]
 pub struct Binary<'a> {
     /// The children.
@@ -121,6 +122,12 @@ impl<'a> Binary<'a> {
             }
         }
         tree
+    }
+
+    /// Whether some children stand in it several times.
+    #[must_use]
+    pub fn is_split(&self) -> bool {
+        self.order.len() > self.of.boxes.len()
     }
 
     /// What it becomes as a wide tree, for builders that compare.

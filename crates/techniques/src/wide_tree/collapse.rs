@@ -1,6 +1,6 @@
 //! From a binary tree to nodes of eight.
 
-use nestray_core::technique::{Leaves, Step};
+use nestray_core::technique::{Leaf, Leaves, Step};
 
 use super::binary::{Binary, Outlook, Pair};
 use super::{LeafSize, Node};
@@ -12,12 +12,12 @@ pub(crate) const MAX_DEPTH: usize = 34;
 /// shallow enough is taken.
 const HALVES_FROM: [usize; 3] = [96, 24, 0];
 
-/// The wide nodes of the tree that `build` makes.
+/// The wide nodes of the tree that `build` makes, and whether it splits children.
 pub(super) fn collapsed<'a>(
     size: LeafSize,
     leaves: &mut Leaves,
     build: impl Fn(usize) -> Binary<'a>,
-) -> Vec<Node> {
+) -> (Vec<Node>, bool) {
     for halves_from in HALVES_FROM {
         let binary = build(halves_from);
         let forests = forests(size, &binary);
@@ -26,7 +26,7 @@ pub(super) fn collapsed<'a>(
         if forests.depth(&binary.pairs) <= MAX_DEPTH {
             out.emit(0, 0);
             assert!(out.depth <= MAX_DEPTH, "depth and what is emitted agree");
-            return out.nodes;
+            return (out.nodes, binary.is_split());
         }
     }
     unreachable!("a tree split in halves is shallow")
@@ -177,7 +177,7 @@ impl Emit<'_> {
         for (lane, child) in self.forests.children(&self.binary.pairs, i).into_iter().enumerate() {
             let pair = &self.binary.pairs[child as usize];
             let word = if self.forests.is_leaf(child) {
-                Step::leaf(self.leaves.push(self.binary.below(pair))).word()
+                Step::leaf(self.leaf(self.binary.below(pair))).word()
             } else {
                 self.emit(child, depth + 1)
             };
@@ -185,5 +185,16 @@ impl Emit<'_> {
         }
         self.nodes[me] = node;
         me as u32
+    }
+
+    /// A leaf with each child once.
+    fn leaf(&mut self, children: &[u32]) -> Leaf {
+        if !self.binary.is_split() {
+            return self.leaves.push(children);
+        }
+        let mut once = children.to_vec();
+        once.sort_unstable();
+        once.dedup();
+        self.leaves.push(&once)
     }
 }

@@ -1,6 +1,6 @@
 //! Trees from the outside: made of nodes, and looked into.
 
-use nestray_core::aabb::Aabb;
+use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::huge::Huge;
 use nestray_core::technique::Step;
 
@@ -11,7 +11,7 @@ impl WideTree {
     /// parts each, the largest last, of coordinates up to `reach`.
     pub(crate) fn of(nodes: impl Iterator<Item = Vec<(Aabb, Step)>>, reach: f32) -> Self {
         let nodes: Vec<Node> = nodes.map(|parts| Node::of(&parts)).collect();
-        Self { nodes: Huge::new(&nodes, 0), reach }
+        Self { nodes: Huge::new(&nodes, 0), reach, slack: Clip::SLACK, is_split: false }
     }
 
     /// Lower x of the boxes of a node, upper x, lower y, …

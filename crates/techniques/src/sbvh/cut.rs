@@ -1,0 +1,115 @@
+//! Cutting children by a plane.
+
+use nestray_core::aabb::Aabb;
+
+use super::build::Parts;
+use crate::cells::Plane;
+
+/// Parts on two sides of a plane, not yet cut.
+pub(super) struct Cut {
+    left: Side,
+    right: Side,
+    /// Parts on both sides, with the boxes of the two pieces.
+    through: Vec<(u32, [Aabb; 2])>,
+}
+
+/// One side.
+struct Side {
+    /// Whole parts.
+    whole: Vec<u32>,
+    bounds: Aabb,
+    /// Of parts and pieces.
+    weight: f32,
+}
+
+impl Side {
+    fn put(&mut self, bounds: Aabb, weight: f32) {
+        self.bounds = self.bounds.join(bounds);
+        self.weight += weight;
+    }
+
+    fn cost(&self) -> f32 {
+        self.bounds.surface_area() * self.weight
+    }
+}
+
+/// Boxes around what of a part is on each side of a plane; none if it is on one side only.
+pub(super) fn halved(parts: &Parts<'_>, part: u32, axis: usize, at: f32) -> Option<[Aabb; 2]> {
+    let bounds = parts.of.boxes[part as usize];
+    if bounds.max[axis] <= at || at <= bounds.min[axis] {
+        return None;
+    }
+    let (mut below, mut above) = (bounds, bounds);
+    (below.max[axis], above.min[axis]) = (at, at);
+    let pieces = [parts.inside(part, &below), parts.inside(part, &above)];
+    // What is not in one of them is in the other, whole.
+    (!pieces.iter().any(|piece| piece.is_empty())).then_some(pieces)
+}
+
+impl Cut {
+    pub(super) fn new(parts: &Parts<'_>, inside: &[u32], Plane { axis, at }: Plane) -> Self {
+        let side = || Side { whole: Vec::new(), bounds: Aabb::EMPTY, weight: 0.0 };
+        let mut cut = Self { left: side(), right: side(), through: Vec::new() };
+        for &part in inside {
+            let (bounds, weight) = (parts.of.boxes[part as usize], parts.of.weights[part as usize]);
+            if let Some(pieces) = halved(parts, part, axis, at) {
+                cut.left.put(pieces[0], weight);
+                cut.right.put(pieces[1], weight);
+                cut.through.push((part, pieces));
+                continue;
+            }
+            let is_left = bounds.center()[axis] <= at;
+            let side = if is_left { &mut cut.left } else { &mut cut.right };
+            side.put(bounds, weight);
+            side.whole.push(part);
+        }
+        cut.put_back(parts);
+        cut
+    }
+
+    /// Leaves parts whole, on one side, where that costs less.
+    fn put_back(&mut self, parts: &Parts<'_>) {
+        let Self { left, right, .. } = self;
+        self.through.retain(|&(part, _)| {
+            let (bounds, weight) = (parts.of.boxes[part as usize], parts.of.weights[part as usize]);
+            let both = left.cost() + right.cost();
+            let with = |side: &Side| side.bounds.join(bounds).surface_area() * side.weight;
+            let without = |side: &Side| side.bounds.surface_area() * (side.weight - weight);
+            let (on_left, on_right) = (with(left) + without(right), without(left) + with(right));
+            if both < on_left.min(on_right) {
+                return true;
+            }
+            let (to, from) = if on_left <= on_right {
+                (&mut *left, &mut *right)
+            } else {
+                (&mut *right, &mut *left)
+            };
+            to.bounds = to.bounds.join(bounds);
+            to.whole.push(part);
+            from.weight -= weight;
+            false
+        });
+    }
+
+    /// How many parts there are on each side.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [&self.left, &self.right].map(|side| side.whole.len() + self.through.len())
+    }
+
+    /// `area × Σ weights` on both sides.
+    pub(super) fn cost(&self) -> f32 {
+        self.left.cost() + self.right.cost()
+    }
+
+    /// Makes two parts of each that is on both sides; returns what is on each.
+    pub(super) fn made(self, parts: &mut Parts<'_>) -> [Vec<u32>; 2] {
+        let Self {
+            left: Side { whole: mut left, .. }, right: Side { whole: mut right, .. }, ..
+        } = self;
+        for (part, pieces) in self.through {
+            left.push(part);
+            right.push(parts.divide(part, pieces));
+        }
+        [left, right]
+    }
+}
