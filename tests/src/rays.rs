@@ -2,6 +2,7 @@
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
+use nestray_core::aim::{Aims, Emitter};
 use nestray_core::hit::Hit;
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind, Source};
@@ -145,4 +146,43 @@ fn direction(numbers: &mut Numbers, bounds: Aabb, aims: &[Vec3A], origin: Vec3A)
     };
     let length = *numbers.pick(&[1.0, 1.0, 1.0, 0.01, 700.0]);
     dir * length
+}
+
+/// Lights and eyes inside and around `bounds`, for techniques that ask where they are.
+#[must_use]
+pub fn lamps(bounds: Aabb) -> Aims {
+    let bounds =
+        if bounds.is_bounded() { bounds } else { Aabb { min: Vec3A::ZERO, max: Vec3A::ONE } };
+    let (middle, size) = (bounds.center(), bounds.size());
+    let lamp = Aabb { min: middle + size * 0.7, max: middle + size * 0.8 };
+    let emitters = vec![
+        Emitter::Point(middle.into()),
+        Emitter::Box { min: lamp.min.into(), max: lamp.max.into() },
+        Emitter::Direction([0.5, 2.0, -1.0]),
+    ];
+    Aims { lights: emitters.clone(), eyes: emitters }
+}
+
+/// Shadow rays from where `rays` start to each light, and rays of eyes back again.
+#[must_use]
+pub fn lit(seed: u64, lamps: &Aims, rays: &[Ray]) -> Vec<Ray> {
+    let mut numbers = Numbers::new(seed ^ 0x11917);
+    let mut out = Vec::new();
+    for ray in rays {
+        for (light, lamp) in (0..).zip(&lamps.lights) {
+            let from = ray.at(2.0 * numbers.point().x);
+            let (dir, end) = match *lamp {
+                Emitter::Point(at) => (Vec3A::from_array(at) - from, 1.0),
+                Emitter::Box { min, max } => {
+                    let (min, max) = (Vec3A::from_array(min), Vec3A::from_array(max));
+                    (min + (max - min) * numbers.point() - from, 1.0)
+                }
+                Emitter::Direction(toward) => (toward.into(), f32::INFINITY),
+            };
+            let kind = RayKind::Shadow { light };
+            out.push(Ray::new(from, dir, kind).between(0.0, end).at_time(ray.time()));
+            out.push(Ray::new(from + dir, -dir, RayKind::Camera).at_time(ray.time()));
+        }
+    }
+    out
 }

@@ -9,7 +9,7 @@ use glam::Vec3A;
 
 use crate::aabb::Aabb;
 use crate::beam::Beam;
-use crate::ray::Ray;
+use crate::ray::{Ray, RayKind};
 
 /// Most rays in a bundle.
 pub const RAYS: usize = 16;
@@ -19,6 +19,8 @@ pub const RAYS: usize = 16;
 pub struct Bundle {
     /// All of them lie in it.
     pub beam: Beam,
+    /// What the first of them was cast for, and mostly all.
+    pub kind: RayKind,
 }
 
 impl Bundle {
@@ -70,7 +72,8 @@ impl Bundle {
             let slack = low.abs().max(high.abs()) * f32::EPSILON;
             [low - slack, high + slack]
         });
-        Some(Self { beam: Beam { origin, axis, backward, u, v, farthest: f32::INFINITY } })
+        let beam = Beam { origin, axis, backward, u, v, farthest: f32::INFINITY };
+        Some(Self { beam, kind: first.kind() })
     }
 
     /// Largest coordinate of an origin.

@@ -109,6 +109,11 @@ pub trait Children: Send + Sync {
         None
     }
 
+    /// Whether `source` lies on one child: quicker than to find out on which it lies.
+    fn holds(&self, child: u32, source: &Source) -> bool {
+        self.child_of(source) == Some(child)
+    }
+
     /// [`Object::paths`] of all children together.
     fn paths(&self) -> u32 {
         1
@@ -255,6 +260,10 @@ impl<O: Object> Children for Vec<O> {
 
     fn child_of(&self, source: &Source) -> Option<u32> {
         self.iter().position(|object| object.holds(source)).map(|child| child as u32)
+    }
+
+    fn holds(&self, child: u32, source: &Source) -> bool {
+        self[child as usize].holds(source)
     }
 
     fn paths(&self) -> u32 {

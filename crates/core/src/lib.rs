@@ -29,6 +29,7 @@ pub mod family;
 pub mod technique;
 
 pub mod accel;
+pub mod aim;
 
 pub mod instance;
 

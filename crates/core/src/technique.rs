@@ -8,9 +8,10 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::aim::Aims;
 use crate::family::Family;
 
-pub use self::index::{Asks, Expected, Index, Query, Repeats, Visit, Walk};
+pub use self::index::{Asks, Every, Expected, Index, Query, Repeats, Visit, Walk};
 pub use self::step::{Leaf, Leaves, Step};
 
 /// An acceleration technique with its settings, as written in a plan: a way of putting
@@ -46,6 +47,13 @@ pub trait Technique:
     /// # Errors
     /// If there is one.
     fn check(&self) -> Result<(), OutOfRange>;
+
+    /// The same technique for a scene with these lights and eyes, where its settings leave them
+    /// open.
+    #[must_use]
+    fn aimed(self, _aims: &Aims) -> Self {
+        self
+    }
 
     /// Why it cannot serve in this place of a plan, if it cannot.
     #[must_use]

@@ -6,6 +6,7 @@ mod universe;
 
 use std::collections::HashMap;
 
+use nestray_core::aim::Aims;
 use nestray_core::by_kind::Case;
 use nestray_core::technique;
 use nestray_registry::{self as registry, Entry};
@@ -89,7 +90,14 @@ pub(crate) fn resolve<'a>(plan: &'a Plan, scene: &'a Scene) -> Result<Resolved<'
     for group in 0..scene.groups.len() {
         group_moves(scene, group, &mut moves);
     }
-    let mut resolver = Resolver { plan, scene, moves, known: HashMap::new(), subtrees: Vec::new() };
+    let mut resolver = Resolver {
+        plan,
+        scene,
+        aims: scene.aims(),
+        moves,
+        known: HashMap::new(),
+        subtrees: Vec::new(),
+    };
     let root = resolver.group("root", &plan.root, scene.root, 0)?;
     form::unused(plan)?;
     Ok(Resolved { subtrees: resolver.subtrees, root, paths })
@@ -110,6 +118,8 @@ fn group_moves(scene: &Scene, group: usize, known: &mut Vec<Option<bool>>) -> bo
 struct Resolver<'a> {
     plan: &'a Plan,
     scene: &'a Scene,
+    /// Its lights and eyes.
+    aims: Aims,
     /// For each group whether something in it moves.
     moves: Vec<Option<bool>>,
     /// The subtree made of a shared one for a group.
@@ -133,7 +143,8 @@ impl<'a> Resolver<'a> {
         Ok(tree)
     }
 
-    /// Finds the subtrees of places and asks techniques for objections; says whether
+    /// Finds the subtrees of places, asks techniques for objections, and tells them where lights
+    /// and eyes are; says whether
     /// something in it moves.
     fn finish(
         &mut self,
@@ -170,7 +181,11 @@ impl<'a> Resolver<'a> {
                     Some(reason) => {
                         Err(PlanError::at(path, Problem::Objection { technique, reason }))
                     }
-                    None => Ok(moving),
+                    None => {
+                        let aimed = (entry.aimed)(params, &self.aims);
+                        *params = aimed.expect("the settings have been checked");
+                        Ok(moving)
+                    }
                 }
             }
             Tree::ByKind { path, cases } => {

@@ -16,6 +16,7 @@ pub mod check;
 
 pub mod surfaces;
 
+pub mod aims;
 pub mod animation;
 
 pub mod material;

@@ -1,5 +1,6 @@
 //! Triangles, tested eight at a time, without a gap between neighbours.
 
+mod beam;
 mod exact;
 mod kernel;
 mod layout;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
+use nestray_core::beam::{Beam, Facing};
 use nestray_core::children::Children;
 use nestray_core::cost::{Cost, CostModel};
 use nestray_core::hit::{Hit, InstancePath};
@@ -142,6 +144,25 @@ impl<L: Layout> Children for Mesh<L> {
 
     fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
         self.triangles.along(child, direction)
+    }
+
+    fn meets(&self, child: u32, rays: &Beam) -> Option<[f32; 2]> {
+        let bounds = self.bounds(child);
+        beam::meets(&self.triangles.corners(child), &bounds, rays)
+    }
+
+    fn blocks(&self, child: u32, rays: &Beam) -> Option<f32> {
+        let corners = self.triangles.corners(child);
+        let seen = match self.sides {
+            Sides::Both => true,
+            Sides::Front => beam::facing(&corners, rays) == Facing::Front,
+            Sides::Back => beam::facing(&corners, rays) == Facing::Back,
+        };
+        if seen && self.triangles.is_usable(child) { beam::blocks(&corners, rays) } else { None }
+    }
+
+    fn facing(&self, child: u32, rays: &Beam) -> Facing {
+        beam::facing(&self.triangles.corners(child), rays)
     }
 
     fn cost(&self, _child: u32, model: &CostModel) -> Cost {

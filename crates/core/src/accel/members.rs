@@ -69,4 +69,8 @@ impl<C: Children> Family for Members<C> {
     fn child_of(&self, source: &Source) -> Option<u32> {
         self.names.number(self.children.child_of(source)?)
     }
+
+    fn holds(&self, child: u32, source: &Source) -> bool {
+        self.children.holds(self.names.child(child), source)
+    }
 }

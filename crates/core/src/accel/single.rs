@@ -10,12 +10,12 @@ use crate::mailbox::Stamp;
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::Simd;
-use crate::technique::{Asks, Index, Leaf, Query, Walk};
+use crate::technique::{Asks, Every, Index, Leaf, Query, Walk};
 use crate::trail::Trail;
 
 /// Nearest hit, one ray.
 type Nearest = Asks<false, false>;
-/// Any hit or all of them, one ray.
+/// Any hit, one ray.
 type Unordered = Asks<true, false>;
 
 impl<I: Index, C: Children> Accel<I, C> {
@@ -85,7 +85,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             self.members.children.all_hits(child, ray, hits, scratch);
         }
         let mut stamp = Stamp::NONE;
-        self.walk::<S, Unordered>(
+        self.walk::<S, Every>(
             simd,
             ray,
             ray.t_max(),

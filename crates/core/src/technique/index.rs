@@ -157,6 +157,8 @@ pub trait Query: Copy {
     const ANY: bool;
     /// Many rays take turns: no branch is predictable, so prefer code without.
     const MANY: bool;
+    /// Every hit is wanted, so nothing may be left out because something hides it.
+    const ALL: bool = false;
 }
 
 /// A [`Query`].
@@ -166,6 +168,16 @@ pub struct Asks<const ANY: bool, const MANY: bool>;
 impl<const ANY: bool, const MANY: bool> Query for Asks<ANY, MANY> {
     const ANY: bool = ANY;
     const MANY: bool = MANY;
+}
+
+/// A [`Query`] for every hit of one ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Every;
+
+impl Query for Every {
+    const ANY: bool = true;
+    const MANY: bool = false;
+    const ALL: bool = true;
 }
 
 /// What one random ray is expected to do in an index.

@@ -3,14 +3,15 @@
 //! A node that is much larger is met by all of its rays or by none, so that looking into it
 //! once saves a visit for each. A node that is smaller is met by some: each ray asks.
 
+use nestray_core::beam::Beam;
 use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::simd::Simd;
 use nestray_core::trail::{self, DONE, Trail};
 
 use super::{Node, WideTree};
 
-/// The bundle's part of the box tests.
-struct Pencil {
+/// A beam's part of the box tests.
+pub(crate) struct Pencil {
     /// The main axis and the two after it.
     axes: [usize; 3],
     sign: f32,
@@ -29,10 +30,10 @@ const SLACK: f32 = 64.0 * f32::EPSILON;
 const LARGE: f32 = 4.0;
 
 impl Pencil {
-    fn new(bundle: &Bundle, reach: f32) -> Self {
-        let beam = &bundle.beam;
+    /// For boxes whose coordinates are at most `reach`.
+    pub(crate) fn new(beam: &Beam, reach: f32) -> Self {
         let axes = [beam.axis, (beam.axis + 1) % 3, (beam.axis + 2) % 3];
-        let slack = bundle.reach().max(reach) * SLACK;
+        let slack = beam.origin.reach().max(reach) * SLACK;
         let (mut low, mut high) = (
             axes.map(|axis| beam.origin.max[axis] + slack),
             axes.map(|axis| beam.origin.min[axis] - slack),
@@ -49,7 +50,7 @@ impl Pencil {
     /// Which of eight boxes some ray may meet, which of those are large, and from how far
     /// along the main axis on.
     #[inline(always)]
-    fn meets<S: Simd>(&self, simd: S, rows: &[[f32; 8]; 6]) -> (u32, u32, S::F32) {
+    pub(crate) fn meets<S: Simd>(&self, simd: S, rows: &[[f32; 8]; 6]) -> (u32, u32, S::F32) {
         let [a, b, c] = self.axes;
         let backward = usize::from(self.sign < 0.0);
         let side = |row: usize, shift: f32| simd.sub(simd.load(&rows[row]), simd.splat(shift));
@@ -95,7 +96,7 @@ impl WideTree {
             return false;
         }
         entrance.clear();
-        let pencil = Pencil::new(bundle, self.reach);
+        let pencil = Pencil::new(&bundle.beam, self.reach);
         let mut top = trail.reset();
         // Nodes to look into are put off as `parent << 3 | lane`.
         let (mut parent, mut lane, mut at) = (0usize, None, 0u32);
