@@ -165,7 +165,10 @@ impl Maker<'_> {
     fn known(&self, cell: Cell, from: Option<&[Name]>) -> Known {
         let limits = &self.room.limits;
         let beam = (self.beam)(cell);
-        let cut = self.forest.cut(self.family, &beam, from, BROAD);
+        let mut cut = self.forest.cut(&beam, from, BROAD);
+        if cut.count() <= List::ROOM {
+            self.forest.keep_met(self.family, &beam, &mut cut.leaves);
+        }
         let few = cut.whole.is_empty() && cut.count() <= limits.most.min(List::ROOM);
         let deepest = (limits.side.ilog2() + 2 * limits.depth).min(BITS - 6);
         if !few && cell.bits + 2 <= deepest {
@@ -173,11 +176,9 @@ impl Maker<'_> {
             self.room.take(size_of_val(&*parts) + size_of_val::<[Name]>(&parts.0));
             return Known::Parts(parts);
         }
-        let cut = if cut.count() <= List::ROOM {
-            cut
-        } else {
-            self.forest.cut(self.family, &beam, None, List::ROOM)
-        };
+        if cut.count() > List::ROOM {
+            cut = self.forest.cut(&beam, None, List::ROOM);
+        }
         let list = List::new(self.forest, self.family, &beam, self.key, cut.into_parts());
         self.room.take(list.bytes());
         Known::List(list)

@@ -9,7 +9,7 @@ use nestray_core::ray::{Ray, RayKind};
 use nestray_core::slot::Slot;
 
 use super::cells::{Limits, Room};
-use super::cut::{Cut, Forest, Name};
+use super::cut::{Forest, Name};
 use super::list::{Key, List};
 use super::{Ask, Found, Guide};
 
@@ -121,7 +121,10 @@ impl Classes {
         let limits = self.room.limits();
         let beam = self.beam(cube, axis, backward);
         let from = above.map(|above| &*above.cut);
-        let cut = forest.cut(family, &beam, from, BROAD);
+        let mut cut = forest.cut(&beam, from, BROAD);
+        if cut.count() <= List::ROOM {
+            forest.keep_met(family, &beam, &mut cut.leaves);
+        }
         let few = cut.whole.is_empty() && cut.count() <= limits.most.min(List::ROOM);
         let idle = above.map_or(0, |above| {
             let much = 4 * cut.count() <= 3 * above.cut.len() && cut.whole.is_empty();
@@ -133,11 +136,9 @@ impl Classes {
             self.room.take(size_of_val(&*parts) + size_of_val::<[Name]>(&parts.cut));
             return Class::Halves(parts);
         }
-        let cut: Cut = if cut.count() <= List::ROOM {
-            cut
-        } else {
-            forest.cut(family, &beam, None, List::ROOM)
-        };
+        if cut.count() > List::ROOM {
+            cut = forest.cut(&beam, None, List::ROOM);
+        }
         let key = (Key::Coordinate { axis, backward }, self.slack);
         let list = List::new(forest, family, &beam, key, cut.into_parts());
         self.room.take(list.bytes());
@@ -157,8 +158,7 @@ impl Guide for Classes {
         let (start, first) = self.start(ask.ray, ask.limit)?;
         let dir = ask.ray.dir();
         let size = dir.abs();
-        let axis =
-            if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
+        let axis = size.max_position();
         let backward = dir[axis] < 0.0;
         let inverse = 1.0 / size[axis];
         let slopes = [1, 2].map(|next| dir[(axis + next) % 3] * inverse);

@@ -54,7 +54,7 @@ pub(crate) struct Part {
 pub(crate) struct Cut {
     /// Subtrees that were not looked into.
     pub(crate) whole: Vec<Part>,
-    /// Leaves with a child that some ray may meet.
+    /// Leaves whose box some ray may meet.
     pub(crate) leaves: Vec<Part>,
 }
 
@@ -129,6 +129,18 @@ impl Forest {
         if backward { -bounds.max[axis] } else { bounds.min[axis] }
     }
 
+    /// Leaves out what has no child that a ray of `beam` may meet; the rest begins where those
+    /// children do.
+    pub(crate) fn keep_met(&self, family: &dyn Family, beam: &Beam, leaves: &mut Vec<Part>) {
+        leaves.retain_mut(|part| {
+            let met = |&child: &u32| family.meets(child, beam);
+            let begins = self.children(part.name).iter().filter_map(met);
+            let begin = begins.map(|[begin, _]| begin).reduce(f32::min);
+            part.begin = begin.map_or(part.begin, |begin| begin.max(part.begin));
+            begin.is_some()
+        });
+    }
+
     /// The children of a leaf; of a subtree none.
     pub(super) fn children(&self, name: Name) -> &[u32] {
         if Step::from_word(self.word(name)).is_onward() {
@@ -145,16 +157,9 @@ impl Forest {
 
     /// What `beam` meets of `from`, or of the whole tree if there is none: subtrees are looked
     /// into, the largest first, until there would be more than `most` parts.
-    pub(crate) fn cut(
-        &self,
-        family: &dyn Family,
-        beam: &Beam,
-        from: Option<&[Name]>,
-        most: usize,
-    ) -> Cut {
+    pub(crate) fn cut(&self, beam: &Beam, from: Option<&[Name]>, most: usize) -> Cut {
         let pencil = Pencil::new(beam, self.tree.reach());
-        let mut growing =
-            Growing { forest: self, family, beam, open: BinaryHeap::new(), leaves: Vec::new() };
+        let mut growing = Growing { forest: self, open: BinaryHeap::new(), leaves: Vec::new() };
         match from {
             None => self.look_into(&pencil, 0, |part| growing.sort_in(part)),
             Some(names) => {
@@ -196,23 +201,17 @@ impl Forest {
 /// A cut being made.
 struct Growing<'a> {
     forest: &'a Forest,
-    family: &'a dyn Family,
-    beam: &'a Beam,
     open: BinaryHeap<Largest>,
     leaves: Vec<Part>,
 }
 
 impl Growing<'_> {
-    /// Subtrees are to be looked into; leaves stay, from where their children begin, unless the
-    /// beam passes them all.
+    /// Subtrees are to be looked into, leaves stay.
     fn sort_in(&mut self, part: Part) {
         if Step::from_word(self.forest.word(part.name)).is_onward() {
-            return self.open.push(Largest(part));
-        }
-        let met = |&child: &u32| self.family.meets(child, self.beam);
-        let begins = self.forest.children(part.name).iter().filter_map(met);
-        if let Some(begin) = begins.map(|[begin, _]| begin).reduce(f32::min) {
-            self.leaves.push(Part { begin: begin.max(part.begin), ..part });
+            self.open.push(Largest(part));
+        } else {
+            self.leaves.push(part);
         }
     }
 }

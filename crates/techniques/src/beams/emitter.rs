@@ -111,8 +111,7 @@ impl Place {
     fn along(toward: [f32; 3], bounds: Aabb) -> Self {
         let out = -Vec3A::from_array(toward);
         let size = out.abs();
-        let axis =
-            if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
+        let axis = size.max_position();
         let backward = out[axis] < 0.0;
         let slopes = [1, 2].map(|next| out[(axis + next) % 3] / size[axis]);
         let room = 16.0 * Clip::SLACK * bounds.reach();
@@ -150,68 +149,77 @@ impl Table {
     /// A ray as seen from the emitter, if it passes it at one of its ends.
     #[inline]
     fn see(&self, ray: &Ray, limit: f32) -> Option<Seen> {
-        let (origin, dir) = (ray.origin(), ray.dir());
-        if origin.abs().max_element() > self.reach {
+        if ray.origin().abs().max_element() > self.reach {
             return None;
         }
-        let size = dir.abs();
-        let axis = match &self.place {
-            Place::Along { axis, .. } => *axis,
-            Place::Through(_) if size.x >= size.y && size.x >= size.z => 0,
-            Place::Through(_) => 1 + usize::from(size.z > size.y),
-        };
-        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-        let scale = size[axis];
-        let inverse = 1.0 / dir[axis];
-        let slopes = [dir[next] * inverse.abs(), dir[last] * inverse.abs()];
-        let upward = dir[axis] > 0.0;
         match &self.place {
             Place::Through(through) => {
-                let middle = through.center();
-                let half = through.size() * 0.5;
-                // The ray goes out if it begins behind the emitter, and comes in if it ends there.
-                [true, false].into_iter().find_map(|out| {
-                    let backward = upward != out;
-                    let sign = if backward { -1.0 } else { 1.0 };
-                    let at = (middle[axis] - sign * half[axis] - origin[axis]) * inverse;
-                    let range = if out {
-                        [(ray.t_min() - at) * scale, (limit - at) * scale]
-                    } else {
-                        [(at - limit) * scale, (at - ray.t_min()) * scale]
-                    };
-                    if range[0].is_nan() || range[0] < -self.slack {
-                        return None;
-                    }
-                    let passes = |axis: usize, of: usize| {
-                        let off = (origin[axis] + dir[axis] * at - middle[axis]).abs();
-                        off <= half[axis] + 2.0 * half[of] + self.slack
-                    };
-                    if !passes(next, axis) || !passes(last, axis) {
-                        return None;
-                    }
-                    let [u, v] = if out { slopes } else { slopes.map(|slope| -slope) };
-                    let address = Address::new(u * 0.5 + 0.5, v * 0.5 + 0.5);
-                    let face = 2 * axis + usize::from(!backward);
-                    Some(Seen { face, address, range, out: out.then_some(-at * scale), scale })
-                })
+                [true, false].into_iter().find_map(|out| self.see_through(ray, limit, through, out))
             }
-            // Seen from where the rays go: that is the side the light is on.
-            Place::Along { backward, slopes: along, plane, shadow, .. } => {
-                let near = |i: usize| (slopes[i] + along[i]).abs() <= PARALLEL;
-                if upward != *backward || !near(0) || !near(1) {
-                    return None;
-                }
-                let at = (plane - origin[axis]) * inverse;
-                let range = [(at - limit) * scale, (at - ray.t_min()) * scale];
-                let place = |axis: usize, shadow: [f32; 2]| {
-                    let point = origin[axis] + dir[axis] * at;
-                    let inside = shadow[0] <= point && point <= shadow[1];
-                    inside.then(|| (point - shadow[0]) / (shadow[1] - shadow[0]))
-                };
-                let address = Address::new(place(next, shadow[0])?, place(last, shadow[1])?);
-                Some(Seen { face: 0, address, range, out: None, scale })
+            Place::Along { axis, backward, slopes, plane, shadow } => {
+                self.see_along(ray, limit, (*axis, *backward, *slopes), (*plane, shadow))
             }
         }
+    }
+
+    /// A ray that goes out if it begins behind the emitter, or comes in if it ends there.
+    #[inline]
+    fn see_through(&self, ray: &Ray, limit: f32, through: &Aabb, out: bool) -> Option<Seen> {
+        let (origin, dir) = (ray.origin(), ray.dir());
+        let axis = dir.abs().max_position();
+        let scale = dir[axis].abs();
+        let backward = (dir[axis] > 0.0) != out;
+        let sign = if backward { -1.0 } else { 1.0 };
+        let (middle, half) = (through.center(), through.size() * 0.5);
+        let at = (middle[axis] - sign * half[axis] - origin[axis]) / dir[axis];
+        let range = if out {
+            [(ray.t_min() - at) * scale, (limit - at) * scale]
+        } else {
+            [(at - limit) * scale, (at - ray.t_min()) * scale]
+        };
+        if range[0].is_nan() || range[0] < -self.slack {
+            return None;
+        }
+        let asides = [(axis + 1) % 3, (axis + 2) % 3];
+        let passes = asides.iter().all(|&aside| {
+            let off = (origin[aside] + dir[aside] * at - middle[aside]).abs();
+            off <= half[aside] + 2.0 * half[axis] + self.slack
+        });
+        let outward = if out { 0.5 / scale } else { -0.5 / scale };
+        let [u, v] = asides.map(|aside| dir[aside] * outward + 0.5);
+        let face = 2 * axis + usize::from(!backward);
+        let out = out.then_some(-at * scale);
+        passes.then(|| Seen { face, address: Address::new(u, v), range, out, scale })
+    }
+
+    /// A ray towards the light: seen from there, against its direction.
+    #[inline]
+    fn see_along(
+        &self,
+        ray: &Ray,
+        limit: f32,
+        (axis, backward, slopes): (usize, bool, [f32; 2]),
+        (plane, shadow): (f32, &[[f32; 2]; 2]),
+    ) -> Option<Seen> {
+        let (origin, dir) = (ray.origin(), ray.dir());
+        let scale = dir[axis].abs();
+        if scale == 0.0 || (dir[axis] > 0.0) != backward {
+            return None;
+        }
+        let at = (plane - origin[axis]) / dir[axis];
+        let mut address = [0.0; 2];
+        for (side, address) in address.iter_mut().enumerate() {
+            let aside = (axis + 1 + side) % 3;
+            let ([low, high], point) = (shadow[side], origin[aside] + dir[aside] * at);
+            let parallel = (dir[aside] / scale + slopes[side]).abs() <= PARALLEL;
+            if !parallel || !(low..=high).contains(&point) {
+                return None;
+            }
+            *address = (point - low) / (high - low);
+        }
+        let [x, y] = address;
+        let range = [(at - limit) * scale, (at - ray.t_min()) * scale];
+        Some(Seen { face: 0, address: Address::new(x, y), range, out: None, scale })
     }
 
     /// The rays of a cell.

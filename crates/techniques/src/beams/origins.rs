@@ -69,8 +69,7 @@ impl Guide for Origins {
         let table = self.table(forest, family, ask.ray)?;
         let dir = ask.ray.dir();
         let size = dir.abs();
-        let axis =
-            if size.x >= size.y && size.x >= size.z { 0 } else { 1 + usize::from(size.z > size.y) };
+        let axis = size.max_position();
         let backward = dir[axis] < 0.0;
         let inverse = 1.0 / size[axis];
         let [u, v] = [1, 2].map(|next| dir[(axis + next) % 3] * inverse);

@@ -235,7 +235,7 @@ fn shadow_rays_test_few_children_and_hidden_ones_are_left_out() {
     let lamp = LAMPS[0];
     let oracle = Accel::new(List::default(), shapes.clone());
     let rays = rays(5, &lamp, RayKind::Shadow { light: 0 }, &oracle);
-    let buffer = LightBuffer { lights: vec![lamp], ..LightBuffer::default() };
+    let buffer = LightBuffer { lights: vec![lamp], most: 2, ..LightBuffer::default() };
     let without = LightBuffer { lights: Vec::new(), ..buffer.clone() };
     let with = tests(&Accel::new(buffer, shapes.clone()), &rays);
     let without = tests(&Accel::new(without, shapes), &rays);
