@@ -64,8 +64,16 @@ impl Cell {
 #[derive(Debug)]
 enum Known {
     List(List),
-    /// What its beam meets, as a cut of the tree, and its sixteen parts.
-    Parts(Box<(Box<[Name]>, [Slot<Self>; 16])>),
+    /// It was cut.
+    Parts(Box<Parts>),
+}
+
+/// A cell that was cut.
+#[derive(Debug)]
+struct Parts {
+    /// What its beam meets, as a cut of the tree.
+    cut: Box<[Name]>,
+    slots: [Slot<Known>; 16],
 }
 
 /// How much memory lists may still take.
@@ -149,8 +157,8 @@ impl Cells {
                 Known::Parts(parts) => {
                     bits += 2;
                     let [x, y] = address.part(bits);
-                    from = Some(&parts.0);
-                    slot = &parts.1[(y % 4 * 4 + x % 4) as usize];
+                    from = Some(&parts.cut);
+                    slot = &parts.slots[(y % 4 * 4 + x % 4) as usize];
                 }
             }
         }
@@ -172,8 +180,8 @@ impl Maker<'_> {
         let few = cut.whole.is_empty() && cut.count() <= limits.most.min(List::ROOM);
         let deepest = (limits.side.ilog2() + 2 * limits.depth).min(BITS - 6);
         if !few && cell.bits + 2 <= deepest {
-            let parts = Box::new((cut.names(), [const { Slot::new() }; 16]));
-            self.room.take(size_of_val(&*parts) + size_of_val::<[Name]>(&parts.0));
+            let parts = Box::new(Parts { cut: cut.names(), slots: [const { Slot::new() }; 16] });
+            self.room.take(size_of_val(&*parts) + size_of_val::<[Name]>(&parts.cut));
             return Known::Parts(parts);
         }
         if cut.count() > List::ROOM {

@@ -190,7 +190,7 @@ impl Forest {
 
     /// Shows the lanes of a node that a beam meets.
     fn look_into(&self, pencil: &Pencil, node: u32, mut show: impl FnMut(Part)) {
-        let (mask, _, begin) = pencil.meets(SCALAR, self.tree.rows(node));
+        let (mask, _, begin) = pencil.meets(SCALAR, self.tree.rows(Step::onward(node)));
         for lane in (0..8).filter(|lane| mask >> lane & 1 == 1) {
             let size = self.tree.lane_box(node, lane).surface_area();
             show(Part { name: Name::new(node, lane), begin: begin[lane], size });

@@ -227,7 +227,7 @@ impl Table {
         let farthest = f32::INFINITY;
         match &self.place {
             Place::Through(through) => {
-                let (axis, backward) = (face / 2, face % 2 == 0);
+                let (axis, backward) = (face / 2, face.is_multiple_of(2));
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                 let sign = if backward { -1.0 } else { 1.0 };
                 let (middle, half) = (through.center(), through.size() * 0.5);
@@ -246,9 +246,8 @@ impl Table {
             }
             Place::Along { axis, backward, slopes, plane, shadow } => {
                 let mut origin = Aabb { min: Vec3A::splat(*plane), max: Vec3A::splat(*plane) };
-                for side in 0..2 {
+                for (side, [low, high]) in shadow.iter().enumerate() {
                     let aside = (axis + 1 + side) % 3;
-                    let [low, high] = shadow[side];
                     let place = |x: f32| low + (high - low) * x;
                     let range = cell.range(side);
                     origin.min[aside] = place(range[0]) - 2.0 * self.slack;

@@ -27,7 +27,7 @@ use crate::ray_coherence::RayCoherence;
 /// Balls, and sheets that hide what is behind them.
 fn objects(seed: u64) -> Vec<DynObject> {
     let mut numbers = Numbers::new(seed);
-    let mut one = |i: u32| -> DynObject {
+    let one = |i: u32| -> DynObject {
         let at = numbers.point() * 10.0;
         let shape: AnyShape = if i.is_multiple_of(3) {
             let (u, v) = (numbers.direction(), numbers.direction());
@@ -37,7 +37,7 @@ fn objects(seed: u64) -> Vec<DynObject> {
         };
         Arc::new(Single::new(i, shape))
     };
-    (0..400).map(|i| one(i)).collect()
+    (0..400).map(one).collect()
 }
 
 /// Long and short triangles, some of them large.

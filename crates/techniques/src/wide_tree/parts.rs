@@ -19,6 +19,26 @@ impl WideTree {
     pub(crate) fn rows(&self, at: Step) -> &[[f32; 8]; 6] {
         &self.nodes[at.word() as usize].rows
     }
+
+    /// The box of one lane of a node; not bounded if there is nothing.
+    pub(crate) fn lane_box(&self, node: u32, lane: usize) -> Aabb {
+        self.nodes[node as usize].bounds(lane)
+    }
+
+    /// The same tree, not yet renamed, with the number of each leaf kept beside its name.
+    pub(crate) fn with_leaf_numbers(mut self) -> Self {
+        let mut nodes = self.nodes.to_vec();
+        for node in &mut nodes {
+            node.spare = node.words.map(|word| Step::from_word(word).as_leaf().0);
+        }
+        self.nodes = Huge::new(&nodes, 0);
+        self
+    }
+
+    /// The number a leaf had when it was pushed.
+    pub(crate) fn leaf_number(&self, node: u32, lane: usize) -> u32 {
+        self.nodes[node as usize].spare[lane]
+    }
 }
 
 impl Node {
