@@ -18,8 +18,8 @@ use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Ste
 use nestray_core::trail::{self, Top, Trail};
 
 pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
-pub(crate) use self::gather::Pencil;
 pub(crate) use self::collapse::{Forests, MAX_DEPTH};
+pub(crate) use self::gather::Pencil;
 pub use self::kernel::Cursor;
 
 /// A tree of boxes, eight to a node.
