@@ -61,8 +61,9 @@ pub trait Object: Send + Sync {
         beam.meets(&self.bounds())
     }
 
-    /// The distance along the main axis beyond which no ray of `beam` passes it unblocked;
-    /// none if some may, or nobody knows.
+    /// The distance along the main axis beyond which no ray of `beam` passes it unblocked,
+    /// whichever way it runs: none comes back through it either. None if some may pass, or
+    /// nobody knows.
     fn blocks(&self, _beam: &Beam) -> Option<f32> {
         None
     }

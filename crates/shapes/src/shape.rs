@@ -199,12 +199,8 @@ impl<S: Shape> Object for Single<S> {
     }
 
     fn blocks(&self, beam: &Beam) -> Option<f32> {
-        match self.sides {
-            Sides::Both => self.shape.blocks(beam),
-            Sides::Front if self.shape.facing(beam) == Facing::Front => self.shape.blocks(beam),
-            Sides::Back if self.shape.facing(beam) == Facing::Back => self.shape.blocks(beam),
-            _ => None,
-        }
+        // What has one side only lets rays through that come the other way.
+        if self.sides == Sides::Both { self.shape.blocks(beam) } else { None }
     }
 
     fn facing(&self, beam: &Beam) -> Facing {

@@ -152,13 +152,9 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn blocks(&self, child: u32, rays: &Beam) -> Option<f32> {
-        let corners = self.triangles.corners(child);
-        let seen = match self.sides {
-            Sides::Both => true,
-            Sides::Front => beam::facing(&corners, rays) == Facing::Front,
-            Sides::Back => beam::facing(&corners, rays) == Facing::Back,
-        };
-        if seen && self.triangles.is_usable(child) { beam::blocks(&corners, rays) } else { None }
+        // What has one side only lets rays through that come the other way.
+        let blocks = self.sides == Sides::Both && self.triangles.is_usable(child);
+        if blocks { beam::blocks(&self.triangles.corners(child), rays) } else { None }
     }
 
     fn facing(&self, child: u32, rays: &Beam) -> Facing {

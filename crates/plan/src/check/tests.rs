@@ -240,3 +240,23 @@ fn a_scene_that_holds_itself_is_refused() {
     let error = check(&Plan::new(Node::nest("bvh", Vec::new())), &scene).expect_err("a cycle");
     assert_eq!(error.to_string(), "the scene: groups: group 0 stands in itself");
 }
+
+#[test]
+fn a_light_buffer_below_an_instance_is_refused_by_place_and_reason() {
+    let scene = garden();
+    for technique in ["light-buffer", "eye-buffer"] {
+        let plan = crate::single::single(technique, Default::default(), &scene).expect("known");
+        assert_eq!(
+            check(&plan, &scene).map_err(|e| e.to_string()),
+            Ok(()),
+            "in the world it is fine"
+        );
+        let mut below = plan.clone();
+        for node in below.shared.values_mut() {
+            let Node::Nest(nest) = node else { panic!("a nest") };
+            nest.technique = technique.into();
+        }
+        let told = check(&below, &scene).expect_err("it has a space of its own").to_string();
+        assert!(told.contains("shared/") && told.contains("an instance has a space"), "{told}");
+    }
+}
