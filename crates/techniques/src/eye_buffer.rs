@@ -34,7 +34,7 @@ pub struct EyeBuffer {
 
 impl Default for EyeBuffer {
     fn default() -> Self {
-        Self { eyes: Vec::new(), side: 0, most: 8, depth: 4, memory: 1024, max_leaf: 8 }
+        Self { eyes: Vec::new(), side: 0, most: 4, depth: 4, memory: 1024, max_leaf: 8 }
     }
 }
 

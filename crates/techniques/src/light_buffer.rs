@@ -40,7 +40,7 @@ pub struct LightBuffer {
 
 impl Default for LightBuffer {
     fn default() -> Self {
-        Self { lights: Vec::new(), side: 0, most: 8, depth: 4, memory: 1024, max_leaf: 8 }
+        Self { lights: Vec::new(), side: 0, most: 4, depth: 4, memory: 1024, max_leaf: 8 }
     }
 }
 

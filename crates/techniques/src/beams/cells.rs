@@ -174,7 +174,7 @@ impl Maker<'_> {
         let limits = &self.room.limits;
         let beam = (self.beam)(cell);
         let mut cut = self.forest.cut(&beam, from, BROAD);
-        if cut.count() <= List::ROOM {
+        if cut.whole.is_empty() {
             self.forest.keep_met(self.family, &beam, &mut cut.leaves);
         }
         let few = cut.whole.is_empty() && cut.count() <= limits.most.min(List::ROOM);

@@ -122,7 +122,7 @@ impl Classes {
         let beam = self.beam(cube, axis, backward);
         let from = above.map(|above| &*above.cut);
         let mut cut = forest.cut(&beam, from, BROAD);
-        if cut.count() <= List::ROOM {
+        if cut.whole.is_empty() {
             forest.keep_met(family, &beam, &mut cut.leaves);
         }
         let few = cut.whole.is_empty() && cut.count() <= limits.most.min(List::ROOM);
