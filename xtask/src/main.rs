@@ -55,13 +55,18 @@ const CHORES: &[Chore] = &[
     },
     Chore {
         name: "conformance",
-        about: "ten million rays through every technique: random nests, closed meshes, pictures",
+        about: "ten million rays through every technique: random nests, closed meshes, pictures, threads",
         steps: &[
             long!("nests", "NESTRAY_RAYS" = "10000000"),
             long!("conformance", "NESTRAY_RAYS" = "200000"),
             long!("watertight", "NESTRAY_RAYS" = "10000000"),
             long!("pictures", "NESTRAY_RAYS" = "100000"),
             long!("determinism", "NESTRAY_PICTURES" = "1000"),
+            long!("lazy", "NESTRAY_BUILDS" = "2000"),
+            Step {
+                env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
+                args: &["test", "--release", "-p", "nestray-core", "--lib", "slot"],
+            },
         ],
     },
     Chore {

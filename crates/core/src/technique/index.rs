@@ -134,7 +134,7 @@ pub struct Walk<'a> {
 pub enum Repeats {
     /// Nobody has to: each child stands in one leaf.
     Never,
-    /// The technique can tell from where the ray stands ([`Technique::visit`]).
+    /// The technique can tell from where the ray stands ([`Index::visit`]).
     ByRule,
     /// The aggregate keeps a [`Mailbox`](crate::mailbox::Mailbox).
     Anywhere,

@@ -64,7 +64,7 @@ impl Step {
     }
 
     /// The same; a leaf by its new name, as
-    /// [`rename_leaves`](crate::technique::Technique::rename_leaves) is told.
+    /// [`rename_leaves`](crate::technique::Index::rename_leaves) is told.
     #[must_use]
     pub fn renamed(self, leaves: &[Leaf]) -> Self {
         if self.is_onward() || self.is_done() {
