@@ -5,6 +5,7 @@ use nestray_core::aim::{Aims, Emitter};
 
 use crate::camera::Camera;
 use crate::light::LightKind;
+use crate::material::Material;
 use crate::scene::Scene;
 
 /// Most glowing surfaces that are counted as places of their own.
@@ -29,7 +30,10 @@ impl Scene {
             .geometries
             .iter()
             .map(|&geometry| &self.geometries[geometry])
-            .filter(|geometry| self.materials[geometry.material].glows())
+            .filter(|geometry| {
+                // A scene that only rays are sent into needs no materials.
+                self.materials.get(geometry.material).is_some_and(Material::glows)
+            })
             .map(crate::geometry::Geometry::bounds)
             .filter(|bounds| !bounds.is_empty() && bounds.is_bounded())
             .map(|bounds| Emitter::Box { min: bounds.min.into(), max: bounds.max.into() });
