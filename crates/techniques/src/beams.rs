@@ -24,7 +24,7 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Trail};
 
-use crate::wide_tree::{self, WideTree, next};
+use crate::wide_tree::{self, WideTree};
 
 pub use self::cells::Limits;
 pub(crate) use self::classes::Classes;
@@ -194,7 +194,7 @@ impl Index for Beams {
         cursor: &mut wide_tree::Cursor,
         limit: f32,
     ) -> Step {
-        next::<S, Q>(simd, walk.trail, &mut cursor.top, limit)
+        self.forest.tree.resume::<S, Q>(simd, walk, cursor, limit)
     }
 
     #[inline(always)]

@@ -5,10 +5,13 @@ use std::sync::Arc;
 use glam::Vec3A;
 use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::accel::Accel;
+use nestray_core::family::Family;
 use nestray_core::object::{DynObject, Object};
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
-use nestray_core::technique::Technique;
+use nestray_core::simd::SCALAR;
+use nestray_core::technique::{Asks, Index, Leaf, Technique, Walk};
+use nestray_core::trail::Trail;
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::sphere::Sphere;
@@ -54,6 +57,31 @@ impl Numbers {
             }
         }
     }
+}
+
+/// Sends a ray through an index, which is not yet renamed; calls `leaf` for all leaves and returns
+/// the number of steps.
+pub(crate) fn walk<I: Index>(
+    index: &I,
+    family: &dyn Family,
+    ray: &Ray,
+    mut leaf: impl FnMut(Leaf, &I::Cursor),
+) -> usize {
+    let mut trail = Trail::new();
+    let mut walk = Walk { ray, trail: &mut trail, family };
+    let limit = ray.t_max();
+    let (mut cursor, mut at) = index.start(SCALAR, &mut walk, limit);
+    let mut steps = 0;
+    while !at.is_done() {
+        if at.is_onward() {
+            steps += 1;
+            at = index.step::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, at, limit);
+        } else {
+            leaf(at.as_leaf(), &cursor);
+            at = index.resume::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, limit);
+        }
+    }
+    steps
 }
 
 /// Says what lines are expected to do and do: steps, then tests.

@@ -5,13 +5,11 @@ use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::beam::{Beam, Facing};
 use nestray_core::family::Family;
 use nestray_core::ray::{Ray, RayKind, Source};
-use nestray_core::simd::SCALAR;
-use nestray_core::technique::{Asks, Index, Leaf, Leaves, Technique, Walk};
-use nestray_core::trail::Trail;
+use nestray_core::technique::{Index, Leaf, Leaves, Technique};
 
-use super::{Cells, Children, Cursor};
+use super::{Cells, Children};
 use crate::bsp::Bsp;
-use crate::counted::Numbers;
+use crate::counted::{Numbers, walk};
 use crate::kd_tree::KdTree;
 use crate::octree::Octree;
 
@@ -83,25 +81,6 @@ fn full(tree: &Cells) -> Vec<(Aabb, Leaf)> {
     tree.cells().into_iter().filter_map(|(bounds, leaf)| Some((bounds, leaf?))).collect()
 }
 
-/// Sends a ray through; calls `leaf` for all leaves and returns the number of steps.
-fn send(tree: &Cells, family: &Boxes, ray: &Ray, mut leaf: impl FnMut(Leaf, &Cursor)) -> usize {
-    let mut trail = Trail::new();
-    let mut walk = Walk { ray, trail: &mut trail, family };
-    let limit = ray.t_max();
-    let (mut cursor, mut at) = tree.start(SCALAR, &mut walk, limit);
-    let mut steps = 0;
-    while !at.is_done() {
-        if at.is_onward() {
-            steps += 1;
-            at = tree.step::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, at, limit);
-        } else {
-            leaf(at.as_leaf(), &cursor);
-            at = tree.resume::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, limit);
-        }
-    }
-    steps
-}
-
 fn every_point_of_a_child_is_in_a_cell_with_it<T: Technique<Index = Cells>>() {
     let family = boxes(1, 300);
     let (tree, leaves) = tree(&T::default(), &family);
@@ -149,7 +128,7 @@ fn cells_come_in_order<T: Technique<Index = Cells>>() {
         let ray = Ray::new(origin, dir, RayKind::Camera);
         let clip = Clip::new(&ray, tree.bounds().reach());
         let (mut last, mut shown) = (0.0, Vec::new());
-        send(&tree, &family, &ray, |leaf, cursor| {
+        walk(&tree, &family, &ray, |leaf, cursor| {
             let begin = cursor.span[0];
             assert!(begin >= last - 1e-4, "{}, ray {i}: {begin} after {last}", T::NAME);
             last = begin;
@@ -192,7 +171,7 @@ fn random_lines_do_what_is_expected<T: Technique<Index = Cells>>() {
         }
         lines += 1;
         let mut tested = Vec::<u32>::new();
-        steps += send(&tree, &family, &ray, |leaf, _| tested.extend(leaves.of(leaf.0 as usize)));
+        steps += walk(&tree, &family, &ray, |leaf, _| tested.extend(leaves.of(leaf.0 as usize)));
         tested.sort_unstable();
         tested.dedup();
         tests += tested.len();

@@ -4,15 +4,13 @@ use glam::Vec3A;
 use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::family::Family;
 use nestray_core::ray::{Ray, RayKind};
-use nestray_core::simd::SCALAR;
-use nestray_core::technique::{Asks, Index, Leaf, Leaves, Step, Technique, Walk};
-use nestray_core::trail::Trail;
+use nestray_core::technique::{Leaf, Leaves, Step, Technique};
 
+use super::Grids;
 use super::block::Block;
-use super::{Cursor, Grids};
 use crate::adaptive_grid::AdaptiveGrid;
 use crate::cells::tests::{Boxes, boxes};
-use crate::counted::{Numbers, expected_and_counted, spheres};
+use crate::counted::{Numbers, expected_and_counted, spheres, walk};
 use crate::macro_regions::MacroRegions;
 use crate::nested_grid::NestedGrid;
 
@@ -22,34 +20,10 @@ pub(super) fn made<T: Technique<Index = Grids>>(technique: &T, family: &Boxes) -
     (grids, leaves)
 }
 
-/// Sends a ray through; calls `leaf` for all leaves and returns the number of steps.
-pub(super) fn walk(
-    grids: &Grids,
-    family: &Boxes,
-    ray: &Ray,
-    mut leaf: impl FnMut(u32, &Cursor),
-) -> usize {
-    let mut trail = Trail::new();
-    let mut walk = Walk { ray, trail: &mut trail, family };
-    let limit = ray.t_max();
-    let (mut cursor, mut at) = grids.start(SCALAR, &mut walk, limit);
-    let mut steps = 0;
-    while !at.is_done() {
-        if at.is_onward() {
-            steps += 1;
-            at = grids.step::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, at, limit);
-        } else {
-            leaf(at.as_leaf().0, &cursor);
-            at = grids.resume::<_, Asks<false, false>>(SCALAR, &mut walk, &mut cursor, limit);
-        }
-    }
-    steps
-}
-
 /// Sends a ray through; returns the leaves shown and the number of steps.
 pub(super) fn send(grids: &Grids, family: &Boxes, ray: &Ray) -> (Vec<u32>, usize) {
     let mut shown = Vec::new();
-    let steps = walk(grids, family, ray, |leaf, _| shown.push(leaf));
+    let steps = walk(grids, family, ray, |leaf, _| shown.push(leaf.0));
     (shown, steps)
 }
 

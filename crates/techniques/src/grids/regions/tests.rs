@@ -4,11 +4,12 @@ use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::technique::{Index, Leaves, Step, Visit};
 
-use super::super::tests::{made, rays, send, walk};
+use super::super::tests::{made, rays, send};
 use super::super::{Crowd, Grids, Rule};
 use super::{EMPTY, REGION};
 use crate::cells::Children;
 use crate::cells::tests::boxes;
+use crate::counted::walk;
 use crate::macro_regions::MacroRegions;
 
 /// A grid as fine as one with regions, without.
@@ -70,7 +71,7 @@ fn a_child_of_a_grid_with_regions_is_new_once() {
         let (mut new, mut shown) = (vec![0; family.0.len()], vec![false; family.0.len()]);
         let mut known = true;
         walk(&grids, &family, ray, |leaf, cursor| {
-            for &child in leaves.of(leaf as usize) {
+            for &child in leaves.of(leaf.0 as usize) {
                 let visit = grids.visit(cursor, child);
                 known &= visit != Visit::Unknown;
                 shown[child as usize] = true;
