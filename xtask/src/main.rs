@@ -63,6 +63,7 @@ const CHORES: &[Chore] = &[
             long!("pictures", "NESTRAY_RAYS" = "100000"),
             long!("determinism", "NESTRAY_PICTURES" = "1000"),
             long!("lazy", "NESTRAY_BUILDS" = "2000"),
+            long!("expected", "NESTRAY_LINES" = "200000"),
             Step {
                 env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
                 args: &["test", "--release", "-p", "nestray-core", "--lib", "slot"],

@@ -17,6 +17,7 @@ mod origins;
 
 use std::fmt::Debug;
 
+use nestray_core::aabb::Aabb;
 use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
 use nestray_core::ray::{Ray, RayKind};
@@ -24,6 +25,7 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Trail};
 
+use crate::lines;
 use crate::wide_tree::{self, WideTree};
 
 pub use self::cells::Limits;
@@ -44,6 +46,14 @@ pub struct Beams {
 pub(crate) trait Guide: Debug + Send + Sync {
     /// Whether it is worth asking for the lists of rays of this kind.
     fn may_know(&self, kind: RayKind) -> bool;
+
+    /// Whether it has lists for rays of every kind, from anywhere.
+    fn knows_all(&self) -> bool {
+        false
+    }
+
+    /// Gives up lists made so far: leaves are about to be called otherwise.
+    fn forget(&mut self) {}
 
     /// The list for a ray up to `limit`; made if there is none yet. None if there is none for
     /// this ray.
@@ -76,6 +86,9 @@ pub(crate) struct Found<'a> {
     /// What the parameter grows by along the main axis; 0 if the order does not matter.
     pub(crate) scale: f32,
 }
+
+/// Lines sent to see what lists save.
+const LINES: u32 = 256;
 
 /// The place of a ray whose list is still to be looked up.
 const LOOK_UP: Step = Step::onward((1 << 31) - 2);
@@ -122,12 +135,26 @@ impl Index for Beams {
     const GATHERS: bool = true;
     type Cursor = wide_tree::Cursor;
 
-    /// Of a random ray nothing is known: it goes through the tree.
+    /// Of a random ray nothing is known, mostly: it goes through the tree. If there are lists for
+    /// all rays, some lines say how much more or less they test.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {
-        self.forest.tree.expected(family, leaves)
+        let mut expected = self.forest.tree.expected(family, leaves);
+        if self.guide.knows_all() {
+            let root = self.forest.tree.nodes().next().into_iter().flatten();
+            let bounds = root.fold(Aabb::EMPTY, |all, part| all.join(part.0));
+            let mut tests = 0;
+            expected.steps = lines::send(self, (LINES, &bounds), family, |leaf| {
+                tests += leaves.of(leaf.0 as usize).len();
+            });
+            let through_tree: f32 = expected.tests.iter().sum();
+            let change = tests as f32 / LINES as f32 / through_tree.max(f32::MIN_POSITIVE);
+            expected.tests.iter_mut().for_each(|tests| *tests *= change);
+        }
+        expected
     }
 
     fn rename_leaves(&mut self, leaves: &[Leaf]) {
+        self.guide.forget();
         self.forest.tree.rename_leaves(leaves);
     }
 

@@ -20,6 +20,8 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Top};
 
+use crate::union::Standing;
+
 pub use self::children::{Cell, Children};
 
 /// A tree of cells.
@@ -122,27 +124,28 @@ impl Index for Cells {
     type Cursor = Cursor;
 
     /// A cell is visited as often as its surface is to that of all; a child is tested once
-    /// however many cells it is in, whenever one of them is crossed: about as often as the box
-    /// around them. Packed children are tested in every cell.
+    /// however many cells it is in, whenever one of them is crossed. Packed
+    /// children are tested in every cell.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {
         let whole = f64::from(self.bounds.surface_area()).max(f64::MIN_POSITIVE);
         let share = |bounds: Aabb| (f64::from(bounds.surface_area()) / whole).min(1.0);
         let mut expected = Expected { steps: 0.0, tests: vec![0.0; family.count() as usize] };
-        let mut hulls = vec![Aabb::EMPTY; if self.packed { 0 } else { expected.tests.len() }];
+        let mut standing = Standing::default();
         for (bounds, leaf) in self.cells() {
             let Some(leaf) = leaf else {
                 expected.steps += share(bounds);
                 continue;
             };
-            for &child in leaves.of(leaf.0 as usize) {
-                match hulls.get_mut(child as usize) {
-                    Some(hull) => *hull = hull.join(bounds),
-                    None => expected.tests[child as usize] += share(bounds) as f32,
-                }
+            let inside = leaves.of(leaf.0 as usize);
+            if self.packed {
+                let chance = share(bounds) as f32;
+                inside.iter().for_each(|&child| expected.tests[child as usize] += chance);
+            } else {
+                standing.add(bounds, inside);
             }
         }
-        for (tests, hull) in expected.tests.iter_mut().zip(hulls) {
-            *tests = share(hull) as f32;
+        if !self.packed {
+            expected.tests = standing.chances(family.count(), whole);
         }
         expected
     }

@@ -17,6 +17,8 @@ use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Visit, Walk};
 use nestray_core::trail::{self, Top, Trail};
 
+use crate::union::Standing;
+
 pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
 pub(crate) use self::collapse::{Forests, MAX_DEPTH};
 pub(crate) use self::gather::Pencil;
@@ -140,37 +142,31 @@ impl Index for WideTree {
     const GATHERS: bool = true;
     type Cursor = Cursor;
 
-    /// A node is visited as often as its surface is to the root's [Goldsmith 87]. A child in
-    /// several leaves is tested once, if not packed: at most as often as the box around them is
-    /// met.
+    /// A node is visited as often as its box is met, its surface to the root's [Goldsmith 87]. A
+    /// child in several leaves is tested once, if not packed.
     fn expected(&self, family: &dyn Family, leaves: &Leaves) -> Expected {
-        let mut tests = vec![0.0; family.count() as usize];
-        let mut steps = 0.0;
+        let root = (0..8).map(|lane| self.nodes[0].bounds(lane)).fold(Aabb::EMPTY, Aabb::join);
+        let whole = area(root).max(f64::MIN_POSITIVE);
+        let mut expected = Expected { steps: 1.0, tests: vec![0.0; family.count() as usize] };
+        let mut standing = Standing::default();
         let is_once = self.is_split && family.together() == 1;
-        let mut hulls = vec![Aabb::EMPTY; if is_once { tests.len() } else { 0 }];
-        let root = (0..8).map(|lane| self.nodes[0].bounds(lane)).reduce(|a, b| a.join(b));
-        let whole = root.map_or(1.0, |b| b.surface_area().max(f32::MIN_POSITIVE));
-        for node in &*self.nodes {
-            let mut bounds = Aabb::EMPTY;
-            for lane in 0..8 {
-                let part = node.bounds(lane);
-                bounds = bounds.join(part);
-                let word = Step::from_word(node.words[lane]);
-                if !word.is_onward() && part.is_bounded() {
-                    for &child in leaves.of(word.as_leaf().0 as usize) {
-                        tests[child as usize] += (part.surface_area() / whole).min(1.0);
-                        if let Some(hull) = hulls.get_mut(child as usize) {
-                            *hull = hull.join(part);
-                        }
-                    }
-                }
+        for (bounds, step) in self.nodes().flatten() {
+            let chance = (area(bounds) / whole).min(1.0);
+            if step.is_onward() {
+                expected.steps += chance;
+                continue;
             }
-            steps += f64::from((bounds.surface_area() / whole).min(1.0));
+            let inside = leaves.of(step.as_leaf().0 as usize);
+            if is_once {
+                standing.add(bounds, inside);
+            } else {
+                inside.iter().for_each(|&child| expected.tests[child as usize] += chance as f32);
+            }
         }
-        for (tests, hull) in tests.iter_mut().zip(hulls) {
-            *tests = tests.min(hull.surface_area() / whole);
+        if is_once {
+            expected.tests = standing.chances(family.count(), whole);
         }
-        Expected { steps, tests }
+        expected
     }
 
     fn rename_leaves(&mut self, leaves: &[Leaf]) {

@@ -154,6 +154,15 @@ impl Guide for Classes {
         true
     }
 
+    fn knows_all(&self) -> bool {
+        true
+    }
+
+    fn forget(&mut self) {
+        self.roots = Default::default();
+        self.room = Room::new(*self.room.limits());
+    }
+
     fn find(&self, forest: &Forest, family: &dyn Family, ask: &Ask<'_>) -> Option<Found<'_>> {
         let (start, first) = self.start(ask.ray, ask.limit)?;
         let dir = ask.ray.dir();

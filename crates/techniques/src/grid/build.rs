@@ -60,12 +60,17 @@ fn is_wide(span: &Span, cells: [u32; 3]) -> bool {
 }
 
 impl Span {
+    /// All cells.
+    pub(super) fn all(cells: [u32; 3]) -> Self {
+        Self { low: [0; 3], high: cells.map(|n| (n - 1) as u16) }
+    }
+
     fn count(&self) -> u64 {
         (0..3).map(|axis| u64::from(self.high[axis] - self.low[axis]) + 1).product()
     }
 
     /// The cells, x fastest.
-    fn cells(self) -> impl Iterator<Item = [u32; 3]> {
+    pub(super) fn cells(self) -> impl Iterator<Item = [u32; 3]> {
         let along = move |axis: usize| u32::from(self.low[axis])..=u32::from(self.high[axis]);
         along(2).flat_map(move |z| along(1).flat_map(move |y| along(0).map(move |x| [x, y, z])))
     }

@@ -4,6 +4,7 @@ use nestray_core::family::{Family, boxes};
 use nestray_core::technique::{Expected, Leaves};
 
 use super::{Linear, Part, TimedTree, Visits};
+use crate::union::Standing;
 
 /// Counts nodes and children by their mean surfaces.
 pub(super) fn expected(tree: &TimedTree, family: &dyn Family, leaves: &Leaves) -> Expected {
@@ -26,23 +27,34 @@ pub(super) fn expected(tree: &TimedTree, family: &dyn Family, leaves: &Leaves) -
             }
         }
     }
-    for (child, part) in hulls(often) {
-        expected.tests[child as usize] += share(&part) as f32;
+    for (child, chance) in chances(often, whole) {
+        expected.tests[child as usize] += chance;
     }
     expected
 }
 
-/// What stands in several leaves at the same time is tested once, whenever one of them is met:
-/// about as often as the box around them.
-fn hulls(mut often: Vec<(u32, Part)>) -> Vec<(u32, Part)> {
+/// Moments looked at while boxes move.
+const MOMENTS: usize = 4;
+
+/// How often each child is tested at each time at which it is somewhere: whenever one of the leaves
+/// is met that it stands in then.
+fn chances(mut often: Vec<(u32, Part)>, whole: f64) -> Vec<(u32, f32)> {
     let key = |(child, part): &(u32, Part)| (*child, part.time.map(f32::to_bits));
     often.sort_by_key(key);
-    often.dedup_by(|one, hull| {
-        let same = key(one) == key(hull);
-        if same {
-            hull.1.bounds = hull.1.bounds.join(one.1.bounds);
+    let (mut standing, mut all) = (Standing::default(), Vec::new());
+    for same in often.chunk_by(|a, b| key(a) == key(b)) {
+        let (child, Part { time: [from, until], .. }) = same[0];
+        let still = same.iter().all(|(_, part)| part.bounds.is_still());
+        let moments = if still { 1 } else { MOMENTS };
+        for moment in 0..moments {
+            let when = (moment as f32 + 0.5) / moments as f32;
+            let boxes = same.iter().map(|(_, part)| part.bounds.at(when));
+            for bounds in boxes.filter(|bounds| !bounds.is_empty()) {
+                standing.add(bounds, &[all.len() as u32]);
+            }
+            all.push((child, (until - from) / moments as f32));
         }
-        same
-    });
-    often
+    }
+    let chances = standing.chances(all.len() as u32, whole);
+    all.into_iter().zip(chances).map(|((child, long), chance)| (child, long * chance)).collect()
 }
