@@ -4,11 +4,11 @@ mod beam;
 mod exact;
 mod kernel;
 mod layout;
+mod part;
 mod surface;
 mod test;
 mod triangles;
 
-use std::collections::HashMap;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -28,6 +28,8 @@ use nestray_core::technique::{Leaf, Leaves};
 
 use crate::shape::Sides;
 
+use self::part::Part;
+
 pub use self::kernel::{Shared, Soup};
 pub use self::layout::Layout;
 pub use self::test::{Probe, Shear};
@@ -46,6 +48,7 @@ pub struct Mesh<L> {
     geometry: u32,
     sides: Sides,
     triangles: Arc<Triangles>,
+    part: Part,
     blocks: Huge<[u32; 8]>,
     /// The triangles of all blocks, in order.
     primitives: Huge<u32>,
@@ -61,6 +64,7 @@ impl<L: Layout> Mesh<L> {
             geometry,
             sides: Sides::Both,
             triangles,
+            part: Part::default(),
             blocks: Huge::default(),
             primitives: Huge::default(),
             layout: PhantomData,
@@ -73,13 +77,7 @@ impl<L: Layout> Mesh<L> {
         Self { sides, ..self }
     }
 
-    /// The same mesh, not yet packed, to be laid out in another way.
-    #[must_use]
-    pub fn packed_otherwise<M: Layout>(&self) -> Mesh<M> {
-        Mesh::new(self.geometry, Arc::clone(&self.triangles)).seen_from(self.sides)
-    }
-
-    /// The data it is made of.
+    /// The data it is made of; of a [`part`](Self::part) that of the whole.
     #[must_use]
     pub fn triangles(&self) -> &Arc<Triangles> {
         &self.triangles
@@ -105,11 +103,11 @@ impl<L: Layout> Mesh<L> {
     }
 
     /// One triangle in the first lane, by the same arithmetic.
-    fn alone(&self, child: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
-        if child == probe.skip || !self.triangles.is_usable(child) {
+    fn alone(&self, primitive: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
+        if primitive == probe.skip || !self.triangles.is_usable(primitive) {
             return None;
         }
-        let corners = self.triangles.corners(child);
+        let corners = self.triangles.corners(primitive);
         let lane = |corner: usize, axis: usize| SCALAR.splat(corners[corner][axis]);
         let shear = &probe.shear;
         let corners = [0, 1, 2].map(|c| {
@@ -117,7 +115,7 @@ impl<L: Layout> Mesh<L> {
             shear.apply(SCALAR, axis(0), axis(1), axis(2))
         });
         let block = layout::Block { corners, shared: None, lanes: 1, first: 0, next: None };
-        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| child)?;
+        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| primitive)?;
         Some(hits.lane(SCALAR, 0))
     }
 }
@@ -127,7 +125,7 @@ impl<L: Layout> Children for Mesh<L> {
     type Probe = Probe;
 
     fn count(&self) -> u32 {
-        self.triangles.count()
+        self.count()
     }
 
     fn kind(&self, _child: u32) -> &'static str {
@@ -135,30 +133,31 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn bounds(&self, child: u32) -> Aabb {
-        self.triangles.bounds(child)
+        self.triangles.bounds(self.part.primitive(child))
     }
 
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
-        self.triangles.clipped(child, cell)
+        self.triangles.clipped(self.part.primitive(child), cell)
     }
 
     fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
-        self.triangles.along(child, direction)
+        self.triangles.along(self.part.primitive(child), direction)
     }
 
     fn meets(&self, child: u32, rays: &Beam) -> Option<[f32; 2]> {
         let bounds = self.bounds(child);
-        beam::meets(&self.triangles.corners(child), &bounds, rays)
+        beam::meets(&self.triangles.corners(self.part.primitive(child)), &bounds, rays)
     }
 
     fn blocks(&self, child: u32, rays: &Beam) -> Option<f32> {
+        let child = self.part.primitive(child);
         // What has one side only lets rays through that come the other way.
         let blocks = self.sides == Sides::Both && self.triangles.is_usable(child);
         if blocks { beam::blocks(&self.triangles.corners(child), rays) } else { None }
     }
 
     fn facing(&self, child: u32, rays: &Beam) -> Facing {
-        beam::facing(&self.triangles.corners(child), rays)
+        beam::facing(&self.triangles.corners(self.part.primitive(child)), rays)
     }
 
     fn cost(&self, _child: u32, model: &CostModel) -> Cost {
@@ -166,12 +165,13 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn closest_hit(&self, child: u32, ray: &Ray, hit: &mut Hit, _scratch: &mut Scratch) -> bool {
-        self.alone(child, &self.probe(ray), hit.t)
-            .is_some_and(|(t, uv)| hit.offer(t, uv, self.geometry, child))
+        let primitive = self.part.primitive(child);
+        self.alone(primitive, &self.probe(ray), hit.t)
+            .is_some_and(|(t, uv)| hit.offer(t, uv, self.geometry, primitive))
     }
 
     fn any_hit(&self, child: u32, ray: &Ray, _scratch: &mut Scratch) -> bool {
-        self.alone(child, &self.probe(ray), ray.t_max()).is_some()
+        self.alone(self.part.primitive(child), &self.probe(ray), ray.t_max()).is_some()
     }
 
     fn all_hits(&self, child: u32, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch) {
@@ -182,18 +182,18 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn surface(&self, _ray: &Ray, hit: &Hit) -> Option<Surface> {
-        (hit.geometry == self.geometry && hit.path == InstancePath::NONE)
-            .then(|| self.triangles.surface(hit.primitive, [hit.u, hit.v]))
+        self.child_called(hit.geometry, hit.primitive, hit.path)
+            .map(|_| self.triangles.surface(hit.primitive, [hit.u, hit.v]))
     }
 
     fn child_of(&self, source: &Source) -> Option<u32> {
-        (source.geometry == self.geometry && source.path == InstancePath::NONE)
-            .then_some(source.primitive)
+        self.child_called(source.geometry, source.primitive, source.path)
     }
 
     fn pack(&mut self, leaves: &Leaves, names: &Names) -> Vec<Leaf> {
-        let faces = merged(&self.triangles);
-        let packed = layout::pack::<L>(&self.triangles.positions, &faces, leaves, names);
+        let faces = self.part.faces(&self.triangles);
+        let mut packed = layout::pack::<L>(&self.triangles.positions, &faces, leaves, names);
+        self.part.rename(&mut packed.primitives);
         // A full set of lanes may be read past the last block.
         self.blocks = Huge::new(&packed.blocks, 256);
         self.primitives = Huge::new(&packed.primitives, 32);
@@ -202,7 +202,10 @@ impl<L: Layout> Children for Mesh<L> {
 
     #[inline(always)]
     fn probe(&self, ray: &Ray) -> Probe {
-        let skip = self.child_of(&ray.source()).unwrap_or(Hit::NOTHING);
+        let source = ray.source();
+        let is_mine = source.geometry == self.geometry && source.path == InstancePath::NONE;
+        // Of another part it is no child of this one either.
+        let skip = if is_mine { source.primitive } else { Hit::NOTHING };
         Probe { shear: Shear::new(ray), skip, sides: self.sides }
     }
 
@@ -277,16 +280,7 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn packed_bytes(&self) -> u64 {
-        (size_of_val::<[[u32; 8]]>(&self.blocks) + size_of_val::<[u32]>(&self.primitives)) as u64
+        let packed = size_of_val::<[[u32; 8]]>(&self.blocks);
+        (packed + size_of_val::<[u32]>(&self.primitives) + self.part.bytes()) as u64
     }
-}
-
-/// The faces with vertices in the same place made one.
-fn merged(triangles: &Triangles) -> Vec<[u32; 3]> {
-    let mut seen = HashMap::with_capacity(triangles.positions.len());
-    let same: Vec<u32> = (0..)
-        .zip(&triangles.positions)
-        .map(|(i, v)| *seen.entry(v.map(f32::to_bits)).or_insert(i))
-        .collect();
-    triangles.faces.iter().map(|face| face.map(|v| same[v as usize])).collect()
 }

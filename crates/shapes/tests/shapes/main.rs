@@ -7,6 +7,7 @@ mod gaps;
 mod hits;
 mod leaving;
 mod numbers;
+mod parts;
 mod places;
 mod reference;
 mod samples;
