@@ -1,6 +1,7 @@
 //! The aggregate object: a technique over children.
 
 mod barrel;
+mod divide;
 mod leaf;
 mod members;
 mod method;
@@ -15,7 +16,6 @@ use crate::children::Children;
 use crate::cost::{Cost, CostModel};
 use crate::dispatch;
 use crate::hit::Hit;
-use crate::names::Names;
 use crate::object::{Aggregate, DynObject, Object};
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
@@ -25,6 +25,8 @@ use crate::technique::{Expected, Index, Leaves, Technique};
 
 use self::members::Members;
 use self::method::Method;
+
+pub use self::divide::{Division, divide};
 
 /// An aggregate: children `C` that some technique put in order, as an index `I`. Every
 /// technique becomes an object through this one type.
@@ -58,7 +60,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             technique: Box::new(technique),
             index: None,
             table: Vec::new(),
-            members: Members { children, names: Names::default() },
+            members: Members::unnamed(children),
             expected: Expected::default(),
             unbounded: Vec::new(),
             built: 0,
@@ -99,10 +101,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             .filter(|&child| !children.bounds(child).is_empty())
             .filter(|&child| !children.bounds(child).is_bounded())
             .collect();
-        self.members.names = Names::keeping(self.built, |child| {
-            let bounds = children.bounds(child);
-            !bounds.is_empty() && bounds.is_bounded()
-        });
+        self.members.name();
         (self.index, self.table) = (None, Vec::new());
         if self.members.names.count() == 0 {
             return;

@@ -17,6 +17,22 @@ pub(super) struct Members<C> {
     pub(super) names: Names,
 }
 
+impl<C: Children> Members<C> {
+    /// Children none of which is in the index yet.
+    pub(super) fn unnamed(children: C) -> Self {
+        Self { children, names: Names::default() }
+    }
+
+    /// Puts all children into the index that have a box and can be hit.
+    pub(super) fn name(&mut self) {
+        let children = &self.children;
+        self.names = Names::keeping(children.count(), |child| {
+            let bounds = children.bounds(child);
+            !bounds.is_empty() && bounds.is_bounded()
+        });
+    }
+}
+
 impl<C: Children> Family for Members<C> {
     fn count(&self) -> u32 {
         self.names.count()
