@@ -78,7 +78,7 @@ impl Reinsertion {
     /// gain may be lost by leaves less full: so passes in which leaves move as a whole alternate
     /// with those in which they do not.
     fn best<'a>(&self, size: LeafSize, of: &'a Contents, halves_from: usize) -> Binary<'a> {
-        let mut best = build::split(self.bins, of, halves_from);
+        let mut best = build::split(self.bins, 1, of, halves_from);
         if best.order.len() < 4 {
             return best;
         }

@@ -61,7 +61,7 @@ fn a_move_gains_what_was_promised_and_can_be_taken_back() {
     let family = boxes(3, 500);
     let (mut leaves, moves) = (Leaves::default(), Cell::new(0));
     WideTree::new(LeafSize { most: 8, cost: 0.8 }, &family, &mut leaves, |of, halves_from| {
-        let binary = build::split(32, of, halves_from);
+        let binary = build::split(32, 1, of, halves_from);
         let mut tree = Tree::new(&binary, &[]);
         let total = |tree: &Tree| tree.nodes.iter().map(|node| area(node.bounds)).sum::<f64>();
         for name in (1..tree.nodes.len() as u32).step_by(7) {
