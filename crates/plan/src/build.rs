@@ -9,7 +9,8 @@ use nestray_core::instance::Instance;
 use nestray_core::lazy::Lazy;
 use nestray_core::moving::Moving;
 use nestray_core::object::DynObject;
-use nestray_registry::{self as registry, Entry, Members};
+use nestray_registry::hybrid::{self, Filling};
+use nestray_registry::{Entry, Members};
 use nestray_scene::geometry::{Content, Geometry};
 use nestray_scene::group::Motion;
 use nestray_scene::scene::Scene;
@@ -20,7 +21,7 @@ use nestray_shapes::triangle_mesh::TriangleMesh;
 use rayon::prelude::*;
 use serde_json::Value;
 
-use crate::check::{Resolved, Tree, resolve};
+use crate::check::{Resolved, Tree, filling, known, resolve};
 use crate::error::PlanError;
 use crate::fingerprint;
 use crate::plan::{Nest, Plan};
@@ -36,6 +37,12 @@ use crate::single::AUTO;
 /// If the plan does not pass [`check`](crate::check::check).
 pub fn build(plan: &Plan, scene: &Scene) -> Result<DynObject, PlanError> {
     Builder::new(plan).build(scene)
+}
+
+/// A nest over these members instead of its children; it must be sound.
+pub(crate) fn over(nest: &Nest, members: Members) -> DynObject {
+    let (entry, params) = (known(&nest.technique), Value::Object(nest.params.clone()));
+    Order { entry, params, leaves: nest.leaves.as_deref().map(filling) }.build(members)
 }
 
 /// Builds the objects of a plan for one frame of a scene after the other. Shared subtrees in
@@ -87,11 +94,19 @@ enum Recipe {
     /// Geometries, side by side.
     Parts(Vec<Part>),
     /// A technique.
-    Nest { entry: &'static Entry, params: Value, children: Vec<Self> },
+    Nest { order: Order, children: Vec<Self> },
     /// By kind; the last is `other`.
     ByKind(Vec<(Option<Case>, Self)>),
     /// Built late.
     Lazy(Arc<Self>),
+}
+
+/// How a nest is put in order.
+#[derive(Clone)]
+struct Order {
+    entry: &'static Entry,
+    params: Value,
+    leaves: Option<Box<Filling>>,
 }
 
 /// What a nest finds among its children.
@@ -125,9 +140,8 @@ fn recipe(
             });
             Recipe::Parts(parts.collect())
         }
-        Tree::Nest { entry, params, children } => Recipe::Nest {
-            entry,
-            params: params.clone(),
+        Tree::Nest { entry, params, leaves, children } => Recipe::Nest {
+            order: Order { entry, params: params.clone(), leaves: leaves.clone() },
             children: children.iter().map(inner).collect(),
         },
         Tree::ByKind { cases, .. } => {
@@ -163,8 +177,8 @@ fn parts(number: usize, geometry: &Geometry) -> Vec<Part> {
 /// A mesh within a solid, which is asked for all hits and has to answer wherever it stands.
 fn operand(mesh: TriangleMesh) -> DynObject {
     let small = mesh.triangles().count() <= Nest::TINY;
-    let entry = if small { list() } else { registry::find(AUTO).expect("it is a technique") };
-    (entry.build)(&Value::Null, Members::Triangles(mesh)).expect("the defaults are sound")
+    let order = if small { Order::list() } else { Order::by(AUTO) };
+    order.build(Members::Triangles(mesh))
 }
 
 fn placed(number: u32, object: DynObject, motion: &Motion, scene: &Scene) -> DynObject {
@@ -187,7 +201,7 @@ impl Recipe {
                 Some(Part::Object(object)) => object,
                 _ => unreachable!("it is one object"),
             },
-            _ => aggregate(list(), &Value::Null, parts),
+            _ => aggregate(&Order::list(), parts),
         }
     }
 
@@ -195,9 +209,9 @@ impl Recipe {
     fn parts(&self) -> Vec<Part> {
         match self {
             Self::Parts(parts) => parts.clone(),
-            Self::Nest { entry, params, children } => {
+            Self::Nest { order, children } => {
                 let parts = children.iter().flat_map(Self::parts).collect();
-                vec![Part::Object(aggregate(entry, params, parts))]
+                vec![Part::Object(aggregate(order, parts))]
             }
             Self::ByKind(cases) => {
                 let mut cases: Vec<_> =
@@ -209,7 +223,7 @@ impl Recipe {
             Self::Lazy(inner) => {
                 let mut flat = Vec::new();
                 inner.flatten(&mut flat);
-                let stand_in = aggregate(list(), &Value::Null, flat);
+                let stand_in = aggregate(&Order::list(), flat);
                 let inner = Arc::clone(inner);
                 vec![Part::Object(Arc::new(Lazy::new(stand_in, move || inner.object())))]
             }
@@ -235,25 +249,34 @@ impl Recipe {
     }
 }
 
-fn list() -> &'static Entry {
-    registry::find("list").expect("it is the first of all techniques")
+impl Order {
+    /// A technique with its defaults.
+    fn by(technique: &str) -> Self {
+        Self { entry: known(technique), params: Value::Null, leaves: None }
+    }
+
+    fn list() -> Self {
+        Self::by("list")
+    }
+
+    fn build(&self, members: Members) -> DynObject {
+        hybrid::build(self.entry, &self.params, self.leaves.as_deref(), members)
+            .expect("the settings have been checked")
+    }
 }
 
 /// A technique over parts, in the fastest form there is for them; see [`Nest`].
-fn aggregate(entry: &Entry, params: &Value, parts: Vec<Part>) -> DynObject {
-    let make = |entry: &Entry, params: &Value, members| {
-        (entry.build)(params, members).expect("the settings have been checked")
-    };
+fn aggregate(order: &Order, parts: Vec<Part>) -> DynObject {
     let shapes = parts.iter().all(|part| matches!(part, Part::Shape(_)));
     if let [Part::Mesh(mesh)] = &parts[..] {
-        return make(entry, params, Members::Triangles(mesh.clone()));
+        return order.build(Members::Triangles(mesh.clone()));
     }
     if shapes && !parts.is_empty() {
         let shapes = parts.into_iter().filter_map(|part| match part {
             Part::Shape(shape) => Some(*shape),
             _ => None,
         });
-        return make(entry, params, Members::Shapes(shapes.collect()));
+        return order.build(Members::Shapes(shapes.collect()));
     }
     let object = |part| match part {
         Part::Object(object) => object,
@@ -261,14 +284,16 @@ fn aggregate(entry: &Entry, params: &Value, parts: Vec<Part>) -> DynObject {
             single.shape.into_object(single.geometry, single.primitive, single.sides)
         }
         Part::Mesh(mesh) if mesh.triangles().count() <= Nest::TINY => {
-            make(list(), &Value::Null, Members::Triangles(mesh))
+            Order::list().build(Members::Triangles(mesh))
         }
-        Part::Mesh(mesh) => make(entry, params, Members::Triangles(mesh)),
+        Part::Mesh(mesh) => order.build(Members::Triangles(mesh)),
     };
     // One thread each; in order, and so always the same.
     let objects = parts.into_par_iter().map(object).collect();
-    make(entry, params, Members::Objects(objects))
+    order.build(Members::Objects(objects))
 }
 
+#[cfg(test)]
+mod hybrids;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! What a plan must satisfy before it is built.
 
 mod cover;
+mod draft;
 mod form;
 mod universe;
 
@@ -9,7 +10,8 @@ use std::collections::HashMap;
 use nestray_core::aim::Aims;
 use nestray_core::by_kind::Case;
 use nestray_core::technique;
-use nestray_registry::{self as registry, Entry};
+use nestray_registry::Entry;
+use nestray_registry::hybrid::Filling;
 use nestray_scene::check::SceneError;
 use nestray_scene::group::Motion;
 use nestray_scene::paths::Paths;
@@ -17,6 +19,8 @@ use nestray_scene::scene::Scene;
 use serde_json::Value;
 
 use self::cover::settle;
+use self::draft::draft;
+pub(crate) use self::draft::{filling, known};
 use self::universe::Universe;
 use crate::error::{PlanError, Problem};
 use crate::fingerprint;
@@ -63,7 +67,7 @@ pub(crate) enum Tree<'a> {
     /// Places of the group; for each of them the shared subtree, which is called so.
     Place { leaf: Leaf, shared: &'a str, subtrees: Vec<usize> },
     /// A technique.
-    Nest { entry: &'static Entry, params: Value, children: Vec<Self> },
+    Nest { entry: &'static Entry, params: Value, leaves: Option<Box<Filling>>, children: Vec<Self> },
     /// By kind; the last case is `other`.
     ByKind { path: String, cases: Vec<(Option<Case>, Self)> },
     /// Built late.
@@ -169,24 +173,21 @@ impl<'a> Resolver<'a> {
                 }
                 Ok(moving)
             }
-            Tree::Nest { entry, params, children } => {
+            Tree::Nest { entry, params, leaves, children } => {
                 let mut moving = false;
                 for (i, child) in children.iter_mut().enumerate() {
                     let path = format!("{path}/nest/children/{i}");
                     moving |= self.finish(&path, child, universe, instances)?;
                 }
-                let technique = entry.name;
-                let objection = (entry.objection)(params, &technique::Place { instances, moving });
-                match objection.expect("the settings have been checked") {
-                    Some(reason) => {
-                        Err(PlanError::at(path, Problem::Objection { technique, reason }))
-                    }
-                    None => {
-                        let aimed = (entry.aimed)(params, &self.aims);
-                        *params = aimed.expect("the settings have been checked");
-                        Ok(moving)
-                    }
+                let place = technique::Place { instances, moving };
+                self.aim(path, entry, params, &place)?;
+                let (mut path, mut leaves) = (format!("{path}/nest"), leaves);
+                while let Some(filling) = leaves {
+                    path.push_str("/leaves");
+                    self.aim(&path, filling.entry, &mut filling.params, &place)?;
+                    leaves = &mut filling.leaves;
                 }
+                Ok(moving)
             }
             Tree::ByKind { path, cases } => {
                 let mut moving = false;
@@ -198,6 +199,23 @@ impl<'a> Resolver<'a> {
             }
             Tree::Lazy(inner) => self.finish(&format!("{path}/lazy"), inner, universe, instances),
         }
+    }
+
+    /// Asks a technique for objections to its place, and tells it where lights and eyes are.
+    fn aim(
+        &self,
+        path: &str,
+        entry: &Entry,
+        params: &mut Value,
+        place: &technique::Place,
+    ) -> Result<(), PlanError> {
+        const CHECKED: &str = "the settings have been checked";
+        if let Some(reason) = (entry.objection)(params, place).expect(CHECKED) {
+            let technique = entry.name;
+            return Err(PlanError::at(path, Problem::Objection { technique, reason }));
+        }
+        *params = (entry.aimed)(params, &self.aims).expect(CHECKED);
+        Ok(())
     }
 
     /// The shared subtree of that name, for a group.
@@ -216,44 +234,6 @@ impl<'a> Resolver<'a> {
         self.known.insert((name, group), self.subtrees.len() - 1);
         Ok(self.subtrees.len() - 1)
     }
-}
-
-/// A node with its own selections looked up.
-fn draft<'a>(path: &str, node: &'a Node, universe: &Universe<'_>) -> Result<Tree<'a>, PlanError> {
-    let leaf = |selection, place, below: &str| {
-        let path = format!("{path}/{below}");
-        let (items, rest) = universe
-            .select(selection, place)
-            .map_err(|problem| PlanError::at(path.clone(), problem))?;
-        Ok::<_, PlanError>(Leaf { items, rest, path })
-    };
-    Ok(match node {
-        Node::Pick(selection) => Tree::Pick(leaf(selection, false, "pick")?),
-        Node::Place(place) => Tree::Place {
-            leaf: leaf(&place.instance, true, "place/instance")?,
-            shared: &place.shared,
-            subtrees: Vec::new(),
-        },
-        Node::Nest(nest) => {
-            let children = nest
-                .children
-                .iter()
-                .enumerate()
-                .map(|(i, child)| draft(&format!("{path}/nest/children/{i}"), child, universe));
-            Tree::Nest {
-                entry: registry::find(&nest.technique).expect("the technique has been checked"),
-                params: Value::Object(nest.params.clone()),
-                children: children.collect::<Result<_, _>>()?,
-            }
-        }
-        Node::ByKind(by_kind) => {
-            let cases = by_kind.cases().into_iter().map(|(case, name, node)| {
-                Ok((case, draft(&format!("{path}/by_kind/{name}"), node, universe)?))
-            });
-            Tree::ByKind { path: path.to_owned(), cases: cases.collect::<Result<_, PlanError>>()? }
-        }
-        Node::Lazy(inner) => Tree::Lazy(Box::new(draft(&format!("{path}/lazy"), inner, universe)?)),
-    })
 }
 
 /// What a case is called in paths.

@@ -17,6 +17,8 @@ pub mod check;
 
 pub mod build;
 
+pub mod presets;
+
 pub mod single;
 
 pub mod describe;

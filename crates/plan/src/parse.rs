@@ -115,7 +115,8 @@ mod tests {
     fn the_hash_does_not_depend_on_the_order_of_settings() {
         let nest = |names: [&str; 2]| {
             let params = names.iter().map(|&n| (n.to_owned(), n.len().into())).collect();
-            let nest = Nest { technique: "grid".into(), params, children: Vec::new() };
+            let technique = "grid".into();
+            let nest = Nest { technique, params, leaves: None, children: Vec::new() };
             Plan::new(Node::Nest(nest)).hash()
         };
         assert_eq!(nest(["a", "bb"]), nest(["bb", "a"]));

@@ -10,8 +10,11 @@ use crate::plan::Plan;
 pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(Plan).to_value();
     let names: Vec<Value> = registry::names().map(Value::from).collect();
-    if let Some(technique) = schema.pointer_mut("/$defs/Nest/properties/technique") {
-        technique["enum"] = names.into();
+    for place in ["Nest", "Leaves"] {
+        let place = format!("/$defs/{place}/properties/technique");
+        if let Some(technique) = schema.pointer_mut(&place) {
+            technique["enum"] = names.clone().into();
+        }
     }
     schema
 }
@@ -35,6 +38,15 @@ mod tests {
             r#"{ "version": 1, "root": { "by_kind": { "lights": { "3": { "pick": 0 } },
                  "other": { "pick": "*" } } } }"#
         ));
+        let over = |leaves: &str| {
+            let nest = format!(r#""technique": "grid", "leaves": {leaves}, "children": []"#);
+            check(&format!(r#"{{ "version": 1, "root": {{ "nest": {{ {nest} }} }} }}"#))
+        };
+        assert!(over(r#"{ "technique": "bvh" }"#));
+        assert!(over(r#"{ "technique": "bvh", "lazy": true, "leaves": { "technique": "list" } }"#));
+        assert!(!over(r#"{ "technique": "bvh", "more_than": 0 }"#));
+        assert!(!over(r#"{ "technique": "bvh", "children": [] }"#));
+        assert!(!over(r#"{}"#));
         assert!(!check(r#"{ "version": 1, "root": { "nets": {} } }"#));
         assert!(!check(r#"{ "version": 1, "root": { "pick": -1 } }"#));
         assert!(!check(r#"{ "version": 1, "root": { "pick": 1 }, "more": 2 }"#));
@@ -45,7 +57,7 @@ mod tests {
     fn it_knows_the_techniques() {
         let text = schema().to_string();
         for name in registry::names() {
-            assert!(text.contains(&format!("\"{name}\"")), "{name}");
+            assert_eq!(text.matches(&format!("\"{name}\"")).count(), 2, "{name}");
         }
     }
 }

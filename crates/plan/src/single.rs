@@ -9,14 +9,15 @@ use serde_json::{Map, Value};
 
 use crate::error::{PlanError, Problem};
 use crate::plan::{Nest, Node, Place, Plan};
+use crate::presets;
 use crate::select::{Selection, Term};
 
 /// What `auto` means: the technique that is good at most scenes.
 pub const AUTO: &str = "bvh";
 
-/// One technique over everything: over the world, and, once for all its instances, over
-/// each group. Below instances a technique that cannot serve there gives way to
-/// [`AUTO`].
+/// One technique, or one [preset](crate::presets), over everything: over the world, and, once for
+/// all its instances, over each group. Settings are those of the technique, of a preset those of
+/// its uppermost. Below instances a technique that cannot serve there gives way to [`AUTO`].
 ///
 /// # Errors
 /// If the technique is not known, or the parts of the scene do not fit together.
@@ -25,25 +26,47 @@ pub fn single(
     params: Map<String, Value>,
     scene: &Scene,
 ) -> Result<Plan, PlanError> {
-    let technique = if technique == "auto" { AUTO } else { technique };
-    let Some(entry) = registry::find(technique) else {
-        let problem = Problem::unknown("technique", technique, registry::names());
-        return Err(PlanError::at("root/nest/technique", problem));
-    };
+    let mut nest = nest(technique).ok_or_else(|| {
+        let problem = Problem::unknown("technique", technique, presets::names());
+        PlanError::at("root/nest/technique", problem)
+    })?;
+    nest.params.extend(params);
     scene.check_places()?;
-    let below = technique::Place { instances: 1, moving: false };
-    let refused = (entry.objection)(&Value::Object(params.clone()), &below);
-    let within = match refused {
-        Ok(Some(_)) => (AUTO, Map::new()),
-        _ => (technique, params.clone()),
-    };
+    let within = if serves_below(&nest) { nest.clone() } else { plain(AUTO) };
     let names = names(scene);
-    let mut plan = Plan::new(node(technique, params, scene.root, scene, &names));
+    let mut plan = Plan::new(node(nest, scene.root, scene, &names));
     for (&group, name) in &names {
-        let (technique, params) = within.clone();
-        plan.shared.insert(name.clone(), node(technique, params, group, scene, &names));
+        plan.shared.insert(name.clone(), node(within.clone(), group, scene, &names));
     }
     Ok(plan)
+}
+
+/// What a name means, without children.
+fn nest(name: &str) -> Option<Nest> {
+    let technique = if name == "auto" { AUTO } else { name };
+    match presets::find(technique) {
+        Some(preset) => Some(preset.nest()),
+        None => registry::find(technique).map(|entry| plain(entry.name)),
+    }
+}
+
+fn plain(technique: &str) -> Nest {
+    let technique = technique.into();
+    Nest { technique, params: Map::new(), leaves: None, children: Vec::new() }
+}
+
+/// Whether nothing in a nest objects to a place below an instance.
+fn serves_below(nest: &Nest) -> bool {
+    let below = technique::Place { instances: 1, moving: false };
+    let serves = |technique: &str, params: &Map<String, Value>| {
+        registry::find(technique).is_some_and(|entry| {
+            let objection = (entry.objection)(&Value::Object(params.clone()), &below);
+            // What is wrong with settings is said by whoever checks the plan.
+            !matches!(objection, Ok(Some(_)))
+        })
+    };
+    serves(&nest.technique, &nest.params)
+        && nest.all_leaves().all(|(_, leaves)| serves(&leaves.technique, &leaves.params))
 }
 
 /// What to call each group that stands somewhere.
@@ -67,14 +90,8 @@ fn names(scene: &Scene) -> BTreeMap<usize, String> {
     seen.into_iter().zip(names).collect()
 }
 
-/// A technique over what stands in a group.
-fn node(
-    technique: &str,
-    params: Map<String, Value>,
-    group: usize,
-    scene: &Scene,
-    names: &BTreeMap<usize, String>,
-) -> Node {
+/// A nest over what stands in a group.
+fn node(nest: Nest, group: usize, scene: &Scene, names: &BTreeMap<usize, String>) -> Node {
     let mut children = Vec::new();
     if !scene.groups[group].geometries.is_empty() {
         children.push(Node::Pick(Selection::all()));
@@ -88,5 +105,5 @@ fn node(
         };
         children.push(Node::Place(Place { instance, shared: names[group].clone() }));
     }
-    Node::Nest(Nest { technique: technique.into(), params, children })
+    Node::Nest(Nest { children, ..nest })
 }

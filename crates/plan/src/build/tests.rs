@@ -25,7 +25,7 @@ use crate::plan::{ByKind, Node, Plan};
 use crate::select::Selection;
 use crate::single::single;
 
-struct Rng(u64);
+pub(super) struct Rng(pub(super) u64);
 
 impl Rng {
     fn next(&mut self) -> f32 {
@@ -33,12 +33,12 @@ impl Rng {
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 40) as f32 / (1u64 << 24) as f32
     }
-    fn point(&mut self) -> Vec3A {
+    pub(super) fn point(&mut self) -> Vec3A {
         Vec3A::new(self.next(), self.next(), self.next())
     }
 }
 
-fn mesh(rng: &mut Rng, name: &str, count: usize) -> Geometry {
+pub(super) fn mesh(rng: &mut Rng, name: &str, count: usize) -> Geometry {
     let corners: Vec<[Vec3A; 3]> = (0..count)
         .map(|_| {
             let at = rng.point();
@@ -87,7 +87,7 @@ fn pyramids(sides: u32) -> Triangles {
 
 /// Everything there is: meshes large and tiny, shapes, solids, one side only, instances in instances,
 /// one of them moving, one flat.
-fn scene() -> Scene {
+pub(super) fn scene() -> Scene {
     let mut rng = Rng(5);
     let mut scene = Scene::new();
     scene.add(mesh(&mut rng, "large", 60));
@@ -122,7 +122,7 @@ fn scene() -> Scene {
     scene
 }
 
-fn rays() -> Vec<Ray> {
+pub(super) fn rays() -> Vec<Ray> {
     let mut rng = Rng(11);
     let kinds = [RayKind::Camera, RayKind::Shadow { light: 1 }, RayKind::Diffuse];
     (0..900)
@@ -135,7 +135,7 @@ fn rays() -> Vec<Ray> {
 }
 
 /// What is hit, and what the surface looks like there.
-fn answers(scene: &Scene, plan: &Plan) -> Vec<(Hit, Vec<f32>)> {
+pub(super) fn answers(scene: &Scene, plan: &Plan) -> Vec<(Hit, Vec<f32>)> {
     let world = build(plan, scene).unwrap_or_else(|error| panic!("{}: {error}", plan.to_json()));
     let surfaces = Surfaces::new(scene).expect("it can be numbered");
     let mut scratch = Scratch::new();

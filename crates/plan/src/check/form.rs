@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nestray_registry::{self as registry, SettingsError};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::error::{PlanError, Problem, nearest};
-use crate::plan::{Nest, Node, Plan};
+use crate::plan::{Node, Plan};
 
 /// Checks version, depth, techniques, settings, and that shared subtrees are there, in no
 /// circle.
@@ -58,6 +58,9 @@ impl<'a> Heights<'a> {
             if let Node::Place(place) = node {
                 level += self.of_shared(&format!("{path}/place/shared"), &place.shared)?;
             }
+            if let Node::Nest(nest) = node {
+                level += nest.all_leaves().count();
+            }
             if level > Plan::DEEPEST {
                 return Err(PlanError::at(path, Problem::TooDeep));
             }
@@ -98,7 +101,10 @@ impl<'a> Heights<'a> {
 /// Checks the techniques of a subtree that is not too deep, and their settings.
 fn words(path: &str, node: &Node) -> Result<(), PlanError> {
     if let Node::Nest(nest) = node {
-        settings(&format!("{path}/nest"), nest)?;
+        settings(&format!("{path}/nest"), &nest.technique, &nest.params)?;
+        for (below, leaves) in nest.all_leaves() {
+            settings(&format!("{path}/{below}"), &leaves.technique, &leaves.params)?;
+        }
     }
     let mut result = Ok(());
     node.visit_children(|below, child| {
@@ -109,12 +115,12 @@ fn words(path: &str, node: &Node) -> Result<(), PlanError> {
     result
 }
 
-fn settings(path: &str, nest: &Nest) -> Result<(), PlanError> {
-    let Some(entry) = registry::find(&nest.technique) else {
-        let problem = Problem::unknown("technique", &nest.technique, registry::names());
+fn settings(path: &str, technique: &str, params: &Map<String, Value>) -> Result<(), PlanError> {
+    let Some(entry) = registry::find(technique) else {
+        let problem = Problem::unknown("technique", technique, registry::names());
         return Err(PlanError::at(format!("{path}/technique"), problem));
     };
-    let params = Value::Object(nest.params.clone());
+    let params = Value::Object(params.clone());
     let Err(error) = (entry.neighbours)(&params) else { return Ok(()) };
     let (setting, near) = match &error {
         SettingsError::Unknown { setting, known } => {
