@@ -8,6 +8,7 @@ use nestray_core::instance::Instance;
 use nestray_core::lazy::Lazy;
 use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
+use nestray_registry::hybrid::{self, Filling};
 use nestray_registry::{Entry, Members, TECHNIQUES, find};
 use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::{Sides, Single};
@@ -42,7 +43,8 @@ enum Part {
 pub enum Way {
     /// Lists, and nothing else: exhaustive search.
     Lists,
-    /// Any technique anywhere, by these numbers; some parts by kind of ray, some lazy.
+    /// Any technique anywhere, by these numbers; some parts by kind of ray, some lazy, some with
+    /// leaves by other techniques.
     Nested(Numbers),
 }
 
@@ -194,7 +196,23 @@ fn aggregate(members: Members, way: &mut Way) -> DynObject {
             let entry = *numbers.pick(TECHNIQUES);
             Arc::new(Lazy::new(stand_in, move || build(&entry, members.clone())))
         }
+        2 => {
+            let (entry, filling) = (*numbers.pick(TECHNIQUES), filling(numbers));
+            let nest = hybrid::build(&entry, &Value::Null, Some(&filling), members);
+            nest.expect("defaults are in range")
+        }
         _ => build(numbers.pick(TECHNIQUES), members),
+    }
+}
+
+/// Some technique for the leaves of another, however small these are.
+fn filling(numbers: &mut Numbers) -> Filling {
+    Filling {
+        more_than: 1 + numbers.below(4),
+        per_leaf: 1 + numbers.below(8) as u32,
+        is_lazy: numbers.once_in(3),
+        leaves: numbers.once_in(3).then(|| Box::new(filling(numbers))),
+        ..Filling::new(numbers.pick(TECHNIQUES))
     }
 }
 

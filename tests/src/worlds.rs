@@ -60,6 +60,18 @@ pub fn families(seed: u64) -> Vec<World> {
     ]
 }
 
+/// Worlds of many children.
+#[must_use]
+pub fn crowds(seed: u64) -> Vec<World> {
+    let mut numbers = Numbers::new(seed);
+    vec![
+        side_by_side(&mut numbers, 900),
+        connected(&mut numbers, 45),
+        soup(&mut numbers, 3_000),
+        instances(&mut numbers, 300),
+    ]
+}
+
 fn corners(bounds: Aabb) -> impl Iterator<Item = Vec3A> {
     (0..8).map(move |i| bounds.corner(i)).chain([bounds.center()])
 }

@@ -9,6 +9,7 @@ use nestray_core::lazy::Lazy;
 use nestray_core::object::Object;
 use nestray_core::ray::Ray;
 use nestray_core::scratch::Scratch;
+use nestray_registry::hybrid::{self, Filling};
 use nestray_registry::{Entry, find};
 use nestray_tests::rays::{following, hard, lamps, lit};
 use nestray_tests::worlds::{World, families};
@@ -82,6 +83,16 @@ fn sixty_four_threads_that_come_to_fresh_nests_are_answered_as_by_lists() {
                 (bvh.build)(&Value::Null, members.clone()).expect("defaults")
             });
             ask_at_once(&late, &rays, &expected, &format!("lazy over {}, {build}", world.name));
+            for above in ["bvh", "grid"] {
+                let above = find(above).expect("it is in the registry");
+                let inner = Filling { is_lazy: true, more_than: 2, ..Filling::new(bvh) };
+                let leaves = Filling { leaves: Some(Box::new(inner.clone())), ..inner };
+                let leaves = Filling { more_than: 6, per_leaf: 16, ..leaves };
+                let members = world.members.clone();
+                let nest = hybrid::build(above, &Value::Null, Some(&leaves), members);
+                let what = format!("{} over lazy {}, {build}", above.name, world.name);
+                ask_at_once(&nest.expect("defaults"), &rays, &expected, &what);
+            }
         }
     }
 }
