@@ -76,7 +76,7 @@ pub(crate) struct RenderArgs {
     /// Where to: .png, .exr or .pfm; may be given several times.
     #[arg(short, long = "output", required = true, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
-    /// `auto`, a technique over everything, or a plan file.
+    /// `auto`, a technique or a preset over everything, or a plan file.
     #[arg(long, default_value = "auto")]
     pub(crate) plan: String,
     /// How light is followed.
@@ -155,7 +155,7 @@ pub(crate) struct QueryArgs {
     /// Where to, .npy.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// `auto`, a technique over everything, or a plan file.
+    /// `auto`, a technique or a preset over everything, or a plan file.
     #[arg(long, default_value = "auto")]
     pub(crate) plan: String,
     /// Only whether anything is hit.
@@ -200,6 +200,7 @@ pub(crate) struct ConvertArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     nestray inspect --list techniques\n  \
+    nestray inspect --list presets\n  \
     nestray inspect scene.gltf --tree --plan grid\n  \
     nestray inspect scene.gltf --ray 320,240\n  \
     nestray inspect plan.json")]
@@ -210,7 +211,7 @@ pub(crate) struct InspectArgs {
     /// Show the nest that the plan makes.
     #[arg(long)]
     pub(crate) tree: bool,
-    /// The plan for `--tree` and `--ray`: `auto`, a technique, or a plan file.
+    /// The plan for `--tree` and `--ray`: `auto`, a technique, a preset, or a plan file.
     #[arg(long, default_value = "auto")]
     pub(crate) plan: String,
     /// Follow the ray through the middle of a pixel.
@@ -236,7 +237,7 @@ pub(crate) struct InspectArgs {
 pub(crate) struct BenchArgs {
     /// A file, `-` for standard input, or `builtin:NAME`.
     pub(crate) scene: String,
-    /// Techniques, `auto` or plan files; every technique if none is named.
+    /// Techniques, presets, `auto` or plan files; every technique if none is named.
     #[arg(long, value_name = "PLAN,…", value_delimiter = ',')]
     pub(crate) plans: Vec<String>,
     /// Most rays of each kind.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use nestray::io::load::{LoadOptions, Loaded, Source, bytes_of, load, read};
 use nestray::plan::error::{PlanError, nearest};
 use nestray::plan::plan::Plan;
+use nestray::plan::presets;
 use nestray::plan::single::single;
-use nestray::registry;
 use nestray::scene::procedural;
 use nestray::scene::scene::Scene;
 
@@ -71,25 +71,25 @@ pub(crate) fn builtin(name: &str, size: Option<u32>) -> Result<Scene, Failure> {
 /// What `--plan` asks for.
 #[derive(Debug)]
 pub(crate) enum Choice {
-    /// One technique over everything, or `auto`.
+    /// One technique or preset over everything, or `auto`.
     Technique(String),
     /// A plan and its file.
     File(Box<Plan>, PathBuf),
 }
 
-/// Reads what `--plan` says; a word that is no file is a technique.
+/// Reads what `--plan` says; a word that is no file is a technique or a preset.
 pub(crate) fn choose(text: &str) -> Result<Choice, Failure> {
-    if text == "auto" || registry::find(text).is_some() {
+    if text == "auto" || presets::names().any(|name| name == text) {
         return Ok(Choice::Technique(text.into()));
     }
     let path = Path::new(text);
     let is_file = path.exists() || path.extension().is_some() || text.contains(['/', '\\']);
     if !is_file {
-        let near = nearest(text, registry::names().chain(["auto"]));
-        let failure = Failure::usage(format!("--plan: no technique or file {text:?}"));
+        let near = nearest(text, presets::names().chain(["auto"]));
+        let failure = Failure::usage(format!("--plan: no technique, preset or file {text:?}"));
         return Err(match near {
             Some(near) => failure.hint(format!("did you mean \"{near}\"?")),
-            None => failure.hint("nestray inspect --list techniques"),
+            None => failure.hint("nestray inspect --list techniques, or --list presets"),
         });
     }
     let plan = read_plan(path)?;

@@ -59,6 +59,8 @@ pub(crate) enum FilterName {
 pub(crate) enum ListName {
     /// Of ordering objects.
     Techniques,
+    /// Techniques in one another.
+    Presets,
     /// Made by program.
     Scenes,
     /// That scenes are made of.

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use nestray::plan::presets::PRESETS;
 use nestray::registry::TECHNIQUES;
 use nestray::scene::procedural::SCENES;
 use serde_json::{Value, json};
@@ -31,6 +32,7 @@ const SHAPES: &[(&str, &str)] = &[
 pub(super) fn report(list: ListName) -> Report {
     match list {
         ListName::Techniques => techniques(),
+        ListName::Presets => presets(),
         ListName::Scenes => scenes(),
         ListName::Shapes => shapes(),
     }
@@ -49,6 +51,20 @@ fn techniques() -> Report {
             line(&mut text, "", &format!("  {setting}"));
         }
         list.push(json!({ "name": entry.name, "about": entry.about, "defaults": defaults }));
+    }
+    Report { text, json: list.into() }
+}
+
+fn presets() -> Report {
+    let (mut text, mut list) = (String::new(), Vec::new());
+    for preset in PRESETS {
+        let mut nest = json!(preset.nest());
+        if let Some(nest) = nest.as_object_mut() {
+            nest.remove("children");
+        }
+        line(&mut text, preset.name, preset.about);
+        line(&mut text, "", &format!("  {nest}"));
+        list.push(json!({ "name": preset.name, "about": preset.about, "nest": nest }));
     }
     Report { text, json: list.into() }
 }

@@ -215,6 +215,10 @@ fn unknown_scenes_techniques_and_verbs_come_with_a_hint() {
     attempt.refuses(attempt.render("builtin:balls@99", &[]), 2, &["99", "from 0 to 6"]);
     let ran = attempt.render("builtin:tetra@1", &["--plan", "gird"]);
     attempt.refuses(ran, 2, &["gird", "did you mean \"grid\"?"]);
+    let ran = attempt.render("builtin:tetra@1", &["--plan", "lazy-bhv"]);
+    attempt.refuses(ran, 2, &["preset", "did you mean \"lazy-bvh\"?"]);
+    let ran = attempt.render("builtin:tetra@1", &["--plan", "xyzzy"]);
+    attempt.refuses(ran, 2, &["--list techniques", "--list presets"]);
     nestray(&["rendre", "a.obj"]).fails(2, &["rendre", "render"]);
     nestray(&["render"]).fails(2, &["<SCENE>", "--help"]);
     nestray(&["generate", "bals", "-o", "a.json"]).fails(2, &["bals", "balls"]);

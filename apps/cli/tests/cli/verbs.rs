@@ -19,6 +19,8 @@ fn a_render_is_the_same_with_any_plan_and_any_threads() {
     assert_eq!(first.len(), 64 * 48 * 12 + b"PF\n64 48\n-1.0\n".len());
     assert!(render("b.pfm", &["--plan", "grid", "--threads", "1"]) == first);
     assert!(render("c.pfm", &["--plan", "list"]) == first);
+    assert!(render("e.pfm", &["--plan", "lazy-bvh"]) == first);
+    assert!(render("f.pfm", &["--plan", "scherson-caspary"]) == first);
     assert!(render("d.pfm", &["--seed", "1"]) != first);
 }
 
@@ -163,9 +165,12 @@ fn scenes_are_made_converted_and_looked_at() {
 
 #[test]
 fn everything_there_is_to_choose_from_is_listed() {
-    for (list, expected) in
-        [("techniques", "density"), ("scenes", "sphereflake"), ("shapes", "torus")]
-    {
+    for (list, expected) in [
+        ("techniques", "density"),
+        ("presets", "max_leaf"),
+        ("scenes", "sphereflake"),
+        ("shapes", "torus"),
+    ] {
         let said = nestray(&["inspect", "--list", list]).succeeds().output;
         assert!(said.contains(expected), "{said}");
         let said = nestray(&["inspect", "--list", list, "--json"]).succeeds().output;
