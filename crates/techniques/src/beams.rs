@@ -8,31 +8,33 @@
 //!
 //! What the light buffer, the eye buffer and their kin share.
 
+mod arena;
 mod cells;
 mod classes;
 mod cut;
 mod emitter;
+mod guide;
 mod list;
 mod origins;
-
-use std::fmt::Debug;
+mod path;
 
 use nestray_core::aabb::Aabb;
 use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
-use nestray_core::ray::{Ray, RayKind};
 use nestray_core::simd::Simd;
 use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
 use nestray_core::trail::{self, Trail};
 
+use self::cells::{Cells, Maker, Next, Place};
+use self::guide::{Ask, Guide, Search};
+use self::list::{Parts, Serves};
 use crate::lines;
 use crate::wide_tree::{self, WideTree};
 
-pub use self::cells::Limits;
+pub(crate) use self::cells::Limits;
 pub(crate) use self::classes::Classes;
 pub(crate) use self::cut::Forest;
 pub(crate) use self::emitter::Emitters;
-pub(crate) use self::list::List;
 pub(crate) use self::origins::Origins;
 
 /// A tree of boxes, and lists for beams of rays.
@@ -40,63 +42,37 @@ pub(crate) use self::origins::Origins;
 pub struct Beams {
     forest: Forest,
     guide: Box<dyn Guide>,
+    cells: Cells,
 }
 
-/// Who knows the list for a ray.
-pub(crate) trait Guide: Debug + Send + Sync {
-    /// Whether it is worth asking for the lists of rays of this kind.
-    fn may_know(&self, kind: RayKind) -> bool;
-
-    /// Whether it has lists for rays of every kind, from anywhere.
-    fn knows_all(&self) -> bool {
-        false
-    }
-
-    /// Gives up lists made so far: leaves are about to be called otherwise.
-    fn forget(&mut self) {}
-
-    /// The list for a ray up to `limit`; made if there is none yet. None if there is none for
-    /// this ray.
-    fn find(&self, forest: &Forest, family: &dyn Family, ask: &Ask<'_>) -> Option<Found<'_>>;
-
-    /// Memory in use.
-    fn bytes(&self) -> u64;
-}
-
-/// What is asked for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Ask<'a> {
-    pub(crate) ray: &'a Ray,
-    /// Nothing farther counts.
-    pub(crate) limit: f32,
-    /// [`Query::ANY`].
-    pub(crate) any: bool,
-    /// [`Query::ALL`].
-    pub(crate) all: bool,
-}
-
-/// A list for a ray, and the part of it that counts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Found<'a> {
-    pub(crate) list: &'a List,
-    /// What begins farther along the main axis, by the key of the list, does not count.
-    pub(crate) to: f32,
-    /// Where on the main axis the ray has parameter 0.
-    pub(crate) from: f32,
-    /// What the parameter grows by along the main axis; 0 if the order does not matter.
-    pub(crate) scale: f32,
+/// Where a ray stands in the tree, or on the way to its list.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cursor {
+    tree: wide_tree::Cursor,
+    search: Search,
 }
 
 /// Lines sent to see what lists save.
 const LINES: u32 = 256;
 
-/// The place of a ray whose list is still to be looked up.
-const LOOK_UP: Step = Step::onward((1 << 31) - 2);
+/// From here on places are lines of lists, not nodes of the tree.
+const LISTS: u32 = 1 << 29;
+/// From here on they are words of cells.
+const CELLS: u32 = 1 << 30;
+/// The place of a ray whose cell is still to be looked up.
+const LOOK_UP: u32 = (1 << 31) - 1;
+
+const _: () = assert!(CELLS + Place::END == 1 << 31, "places fit in the bits there are");
 
 impl Beams {
-    /// A tree over all children, and the lists that `guide` knows.
-    pub(crate) fn new(tree: WideTree, leaves: &Leaves, guide: Box<dyn Guide>) -> Self {
-        Self { forest: Forest::new(tree, leaves), guide }
+    /// A tree over all children, and the lists of the cells of `roots` that `guide` knows.
+    pub(crate) fn new(
+        tree: WideTree,
+        leaves: &Leaves,
+        guide: Box<dyn Guide>,
+        (roots, limits): (usize, Limits),
+    ) -> Self {
+        Self { forest: Forest::new(tree, leaves), guide, cells: Cells::new(roots, limits) }
     }
 
     /// The tree.
@@ -105,35 +81,111 @@ impl Beams {
         &self.forest.tree
     }
 
-    /// Puts off what is in the list of a ray, nearest last, and takes that; goes to the root if
-    /// there is no list.
+    /// Goes through the tree.
     #[inline(always)]
-    fn look_up<S: Simd, Q: Query>(
+    fn go_to_root(&self, walk: &mut Walk<'_>, cursor: &mut Cursor) -> Step {
+        cursor.tree = self.forest.tree.cursor(walk);
+        Step::onward(0)
+    }
+
+    /// Finds out which cell a ray is in.
+    #[inline(always)]
+    fn look_up(&self, walk: &mut Walk<'_>, cursor: &mut Cursor, ask: &Ask<'_>) -> Step {
+        let Some(found) = self.guide.search(&self.forest, walk.family, &self.cells, ask) else {
+            return self.go_to_root(walk, cursor);
+        };
+        cursor.search = Search { bits: self.cells.first(), ..found };
+        match self.cells.enter(found.root, found.path) {
+            Some(place) => Step::onward(CELLS + place.0),
+            None => self.go_to_root(walk, cursor),
+        }
+    }
+
+    /// Goes from a cell to the part of it that the ray is in, or to its list.
+    #[inline(always)]
+    fn go_on(&self, walk: &mut Walk<'_>, cursor: &mut Cursor, place: Place) -> Step {
+        let search = &mut cursor.search;
+        let rest = search.path.after(search.bits);
+        let mut next = self.cells.next(place, rest);
+        if next == Next::Unknown {
+            self.know(walk, search, place);
+            next = self.cells.next(place, rest);
+        }
+        match next {
+            Next::Cell(part) => {
+                search.bits += 4;
+                Step::onward(CELLS + part.0)
+            }
+            Next::List(line) => Step::onward(LISTS + line),
+            Next::Leaf(word) => Step::from_word(word),
+            Next::Done => Step::DONE,
+            Next::Nowhere | Next::Unknown => self.go_to_root(walk, cursor),
+        }
+    }
+
+    /// Makes what there is to know of a cell.
+    #[cold]
+    #[inline(never)]
+    fn know(&self, walk: &Walk<'_>, search: &Search, place: Place) {
+        let (forest, family) = (&self.forest, walk.family);
+        let beam = |cell| self.guide.beam((forest, family), walk.ray, search.root, cell);
+        let cell = search.path.cell(search.bits);
+        self.cells.know(place, cell, &Maker { forest, family, beam: &beam });
+    }
+
+    /// Puts off what is in the list of a ray, nearest last, and takes that; goes to the root if
+    /// the list does not serve.
+    #[inline(always)]
+    fn put_off<S: Simd, Q: Query>(
         &self,
         simd: S,
         walk: &mut Walk<'_>,
-        cursor: &mut wide_tree::Cursor,
+        cursor: &mut Cursor,
+        mut line: u32,
         limit: f32,
     ) -> Step {
-        let ask = Ask { ray: walk.ray, limit, any: Q::ANY, all: Q::ALL };
-        let Some(found) = self.guide.find(&self.forest, walk.family, &ask) else {
-            return Step::onward(0);
-        };
-        for line in found.list.lines().iter().rev() {
-            let begin = simd.load(&line.begin);
-            let mask = simd.le(begin, simd.splat(found.to));
-            let from = simd.sub(begin, simd.splat(found.from));
-            let enter = simd.max(simd.mul(from, simd.splat(found.scale)), simd.splat(0.0));
-            trail::put_off_all(simd, walk.trail, &mut cursor.top, mask, enter, &line.words);
+        let search = cursor.search;
+        let mut parts = Parts::read(self.cells.line(line));
+        match parts.serves(search.range, search.nearest, walk.family, &walk.ray.source()) {
+            Serves::All => {}
+            // Any hit will do, and there is one.
+            Serves::Hidden if Q::ANY => return Step::HIT,
+            Serves::Hidden => {}
+            Serves::Nothing => return self.go_to_root(walk, cursor),
         }
-        self.resume::<S, Q>(simd, walk, cursor, limit)
+        if parts.has_trees {
+            cursor.tree = self.forest.tree.cursor(walk);
+        }
+        let tree = &mut cursor.tree;
+        loop {
+            let begin = simd.load(&parts.begin);
+            let mask = simd.le(begin, simd.splat(search.to));
+            let from = simd.sub(begin, simd.splat(search.from));
+            let enter = simd.max(simd.mul(from, simd.splat(search.scale)), simd.splat(0.0));
+            trail::put_off_all(simd, walk.trail, &mut tree.top, mask, enter, &parts.words);
+            if !parts.goes_on {
+                break;
+            }
+            line += 1;
+            parts = Parts::read(self.cells.line(line));
+        }
+        self.forest.tree.resume::<S, Q>(simd, walk, tree, limit)
+    }
+}
+
+impl Beams {
+    /// Where a ray is before its cell was looked up.
+    #[inline(always)]
+    fn before(&self, walk: &mut Walk<'_>) -> Cursor {
+        Cursor { tree: self.forest.tree.idle_cursor(walk), search: Search::default() }
     }
 }
 
 impl Index for Beams {
     const REPEATS: Repeats = Repeats::Never;
+    const TELLS: bool = true;
     const GATHERS: bool = true;
-    type Cursor = wide_tree::Cursor;
+    type Cursor = Cursor;
 
     /// Of a random ray nothing is known, mostly: it goes through the tree. If there are lists for
     /// all rays, some lines say how much more or less they test.
@@ -154,23 +206,22 @@ impl Index for Beams {
     }
 
     fn rename_leaves(&mut self, leaves: &[Leaf]) {
-        self.guide.forget();
+        self.cells.forget();
         self.forest.tree.rename_leaves(leaves);
     }
 
     fn bytes(&self) -> u64 {
-        self.forest.bytes() + self.guide.bytes()
+        self.forest.bytes() + self.guide.bytes() + self.cells.bytes()
     }
 
     #[inline(always)]
-    fn start<S: Simd>(
-        &self,
-        _simd: S,
-        walk: &mut Walk<'_>,
-        _limit: f32,
-    ) -> (wide_tree::Cursor, Step) {
-        let cursor = self.forest.tree.cursor(walk);
-        (cursor, if self.guide.may_know(walk.ray.kind()) { LOOK_UP } else { Step::onward(0) })
+    fn start<S: Simd>(&self, _simd: S, walk: &mut Walk<'_>, _limit: f32) -> (Cursor, Step) {
+        let mut cursor = Cursor::default();
+        if self.guide.may_know(walk.ray.kind()) {
+            return (self.before(walk), Step::onward(LOOK_UP));
+        }
+        let at = self.go_to_root(walk, &mut cursor);
+        (cursor, at)
     }
 
     #[inline(always)]
@@ -191,11 +242,12 @@ impl Index for Beams {
         walk: &mut Walk<'_>,
         limit: f32,
         entrance: &Entrance,
-    ) -> (wide_tree::Cursor, Step) {
+    ) -> (Cursor, Step) {
         if self.guide.may_know(walk.ray.kind()) {
-            return (self.forest.tree.cursor(walk), LOOK_UP);
+            return (self.before(walk), Step::onward(LOOK_UP));
         }
-        self.forest.tree.start_at::<S, Q>(simd, walk, limit, entrance)
+        let (tree, at) = self.forest.tree.start_at::<S, Q>(simd, walk, limit, entrance);
+        (Cursor { tree, search: Search::default() }, at)
     }
 
     #[inline(always)]
@@ -203,14 +255,19 @@ impl Index for Beams {
         &self,
         simd: S,
         walk: &mut Walk<'_>,
-        cursor: &mut wide_tree::Cursor,
+        cursor: &mut Cursor,
         at: Step,
         limit: f32,
     ) -> Step {
-        if at == LOOK_UP {
-            return self.look_up::<S, Q>(simd, walk, cursor, limit);
+        match at.word() {
+            LOOK_UP => {
+                let ask = Ask { ray: walk.ray, limit, any: Q::ANY, all: Q::ALL };
+                self.look_up(walk, cursor, &ask)
+            }
+            word @ CELLS.. => self.go_on(walk, cursor, Place(word - CELLS)),
+            word @ LISTS.. => self.put_off::<S, Q>(simd, walk, cursor, word - LISTS, limit),
+            _ => self.forest.tree.step::<S, Q>(simd, walk, &mut cursor.tree, at, limit),
         }
-        self.forest.tree.step::<S, Q>(simd, walk, cursor, at, limit)
     }
 
     #[inline(always)]
@@ -218,15 +275,19 @@ impl Index for Beams {
         &self,
         simd: S,
         walk: &mut Walk<'_>,
-        cursor: &mut wide_tree::Cursor,
+        cursor: &mut Cursor,
         limit: f32,
     ) -> Step {
-        self.forest.tree.resume::<S, Q>(simd, walk, cursor, limit)
+        self.forest.tree.resume::<S, Q>(simd, walk, &mut cursor.tree, limit)
     }
 
     #[inline(always)]
-    fn address(&self, cursor: &wide_tree::Cursor, at: Step) -> *const u8 {
-        self.forest.tree.address(cursor, at)
+    fn address(&self, cursor: &Cursor, at: Step) -> *const u8 {
+        match at.word() {
+            word @ CELLS..=LOOK_UP => self.cells.address_of(Place(word - CELLS)),
+            word @ LISTS..CELLS => self.cells.address(word - LISTS),
+            _ => self.forest.tree.address(&cursor.tree, at),
+        }
     }
 }
 

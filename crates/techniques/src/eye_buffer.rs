@@ -10,8 +10,8 @@ use nestray_core::ray::RayKind;
 use nestray_core::technique::{Leaves, OutOfRange, Place, Technique, in_range};
 use serde::{Deserialize, Serialize};
 
-use crate::beams::{Beams, Limits};
-use crate::light_buffer;
+use crate::beams::Beams;
+use crate::light_buffer::{self, Around};
 
 /// The technique: an eye buffer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,13 +44,9 @@ impl Technique for EyeBuffer {
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {
         let serves = |kind: RayKind| matches!(kind, RayKind::Camera | RayKind::Custom(_));
-        let limits = Limits {
-            side: self.side,
-            most: self.most,
-            depth: self.depth,
-            memory: u64::from(self.memory) << 20,
-        };
-        light_buffer::build(&self.eyes, limits, self.max_leaf, serves, (family, leaves))
+        let cells =
+            Around { side: self.side, most: self.most, depth: self.depth, memory: self.memory };
+        light_buffer::build(&self.eyes, &cells, self.max_leaf, serves, (family, leaves))
     }
 
     fn neighbours(&self) -> Vec<Self> {
@@ -65,8 +61,8 @@ impl Technique for EyeBuffer {
 
     fn check(&self) -> Result<(), OutOfRange> {
         in_range(self.eyes.iter().all(Emitter::is_sound), "eyes", "finite, boxes in order")?;
-        let side = self.side == 0 || (self.side.is_power_of_two() && self.side <= 1024);
-        in_range(side, "side", "0 (chosen), or a power of two up to 1024")?;
+        let side = self.side == 0 || (self.side.is_power_of_two() && self.side <= 256);
+        in_range(side, "side", "0 (chosen), or a power of two up to 256")?;
         in_range((1..=16).contains(&self.most), "most", "1 to 16")?;
         in_range(self.depth <= 8, "depth", "0 to 8")?;
         in_range((1..=1 << 20).contains(&self.memory), "memory", "1 to 1048576")?;

@@ -50,13 +50,9 @@ impl Technique for LightBuffer {
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {
         let serves = |kind: RayKind| matches!(kind, RayKind::Shadow { .. } | RayKind::Custom(_));
-        let limits = Limits {
-            side: self.side,
-            most: self.most,
-            depth: self.depth,
-            memory: u64::from(self.memory) << 20,
-        };
-        build(&self.lights, limits, self.max_leaf, serves, (family, leaves))
+        let cells =
+            Around { side: self.side, most: self.most, depth: self.depth, memory: self.memory };
+        build(&self.lights, &cells, self.max_leaf, serves, (family, leaves))
     }
 
     fn neighbours(&self) -> Vec<Self> {
@@ -71,8 +67,8 @@ impl Technique for LightBuffer {
 
     fn check(&self) -> Result<(), OutOfRange> {
         in_range(self.lights.iter().all(Emitter::is_sound), "lights", "finite, boxes in order")?;
-        let side = self.side == 0 || (self.side.is_power_of_two() && self.side <= 1024);
-        in_range(side, "side", "0 (chosen), or a power of two up to 1024")?;
+        let side = self.side == 0 || (self.side.is_power_of_two() && self.side <= 256);
+        in_range(side, "side", "0 (chosen), or a power of two up to 256")?;
         in_range((1..=16).contains(&self.most), "most", "1 to 16")?;
         in_range(self.depth <= 8, "depth", "0 to 8")?;
         in_range((1..=1 << 20).contains(&self.memory), "memory", "1 to 1048576")?;
@@ -92,22 +88,47 @@ impl Technique for LightBuffer {
     }
 }
 
+/// Cells around an emitter, as settings say.
+pub(crate) struct Around {
+    pub(crate) side: u32,
+    pub(crate) most: usize,
+    pub(crate) depth: u32,
+    pub(crate) memory: u32,
+}
+
+impl Around {
+    /// Where so many leaves are to be told apart.
+    fn limits(&self, leaves: usize) -> Limits {
+        let side = match self.side {
+            // About one cell for each leaf that is seen.
+            0 => ((leaves as f32 / 2.0).sqrt().max(1.0) as u32).next_power_of_two().min(64),
+            side => side,
+        };
+        let first = 2 * side.ilog2();
+        Limits {
+            first,
+            depth: self.depth.min((DEEPEST - first) / 4),
+            most: self.most,
+            idle: u32::MAX,
+            memory: u64::from(self.memory) << 20,
+        }
+    }
+}
+
+/// Most halves on the way to a cell: finer ones are no wider than rounding errors.
+const DEEPEST: u32 = 36;
+
 /// A hierarchy of boxes with lists for rays that pass `emitters`.
 pub(crate) fn build(
     emitters: &[Emitter],
-    limits: Limits,
+    around: &Around,
     max_leaf: usize,
     serves: fn(RayKind) -> bool,
     (family, leaves): (&dyn Family, &mut Leaves),
 ) -> Beams {
     let tree = Bvh { max_leaf, ..Bvh::default() }.build(family, leaves);
     let bounds = boxes(family).into_iter().fold(Aabb::EMPTY, Aabb::join);
-    let side = match limits.side {
-        // About one cell for each leaf that is seen.
-        0 => (leaves.count() as f32 / 2.0).sqrt().max(1.0) as u32,
-        side => side,
-    };
-    let side = side.next_power_of_two().min(if limits.side == 0 { 64 } else { 1024 });
-    let guide = Emitters::new(emitters, bounds, Limits { side, ..limits }, serves);
-    Beams::new(tree, leaves, Box::new(guide))
+    let guide = Emitters::new(emitters, bounds, serves);
+    let cells = (guide.roots(), around.limits(leaves.count()));
+    Beams::new(tree, leaves, Box::new(guide), cells)
 }

@@ -22,7 +22,7 @@ use crate::bvh::Bvh;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RayClassification {
-    /// Classes with longer lists are cut in two.
+    /// Classes with longer lists are cut in two four times.
     pub most: usize,
     /// Most cuts around a class.
     pub depth: u32,
@@ -38,6 +38,9 @@ impl Default for RayClassification {
     }
 }
 
+/// So many times all rays are cut in two at once.
+const FIRST: u32 = 12;
+
 impl Technique for RayClassification {
     const NAME: &'static str = "ray-classification";
     type Index = Beams;
@@ -45,9 +48,15 @@ impl Technique for RayClassification {
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {
         let tree = Bvh { max_leaf: self.max_leaf, ..Bvh::default() }.build(family, leaves);
         let bounds = boxes(family).into_iter().fold(Aabb::EMPTY, Aabb::join);
-        let memory = u64::from(self.memory) << 20;
-        let limits = Limits { side: 1, most: self.most, depth: self.depth, memory };
-        Beams::new(tree, leaves, Box::new(Classes::new(bounds, limits)))
+        let first = self.depth.min(FIRST);
+        let limits = Limits {
+            first,
+            depth: (self.depth - first) / 4,
+            most: self.most,
+            idle: 3,
+            memory: u64::from(self.memory) << 20,
+        };
+        Beams::new(tree, leaves, Box::new(Classes::new(bounds)), (Classes::ROOTS, limits))
     }
 
     fn neighbours(&self) -> Vec<Self> {

@@ -46,10 +46,15 @@ impl Technique for RayCoherence {
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {
         let tree = Bvh { max_leaf: self.max_leaf, ..Bvh::default() }.build(family, leaves);
         let bounds = boxes(family).into_iter().fold(Aabb::EMPTY, Aabb::join);
-        let memory = u64::from(self.memory) << 20;
-        let limits = Limits { side: self.side, most: self.most, depth: self.depth, memory };
-        let guide = Origins::new(leaves.count(), bounds, limits);
-        Beams::new(tree, leaves, Box::new(guide))
+        let limits = Limits {
+            first: 2 * self.side.ilog2(),
+            depth: self.depth,
+            most: self.most,
+            idle: u32::MAX,
+            memory: u64::from(self.memory) << 20,
+        };
+        let roots = 6 * leaves.count();
+        Beams::new(tree, leaves, Box::new(Origins::new(bounds)), (roots, limits))
     }
 
     fn neighbours(&self) -> Vec<Self> {

@@ -81,6 +81,14 @@ impl WideTree {
         Cursor::new(walk.ray, self.reach, self.slack, walk.trail.reset())
     }
 
+    /// Nowhere, with nothing put off: of no use to go through the tree.
+    #[inline(always)]
+    pub(crate) fn idle_cursor(&self, walk: &mut Walk<'_>) -> Cursor {
+        let mut cursor = Cursor::default();
+        cursor.top = walk.trail.reset();
+        cursor
+    }
+
     /// What the lanes of a node are.
     #[inline(always)]
     pub(crate) fn words(&self, at: Step) -> &[u32; 8] {

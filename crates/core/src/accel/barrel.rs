@@ -166,7 +166,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             while flight.lists.onward.count > FEW
                 || (flight.lists.onward.count > 0 && flight.lists.leaf.count == 0)
             {
-                self.step_all::<S, ANY>(simd, index, rays, &mut flight);
+                self.step_all::<S, ANY>(simd, index, rays, &mut answers, &mut flight);
             }
             self.serve_leaves::<S, ANY>(simd, index, rays, &mut answers, (&mut flight, scratch));
         }
@@ -222,6 +222,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         simd: S,
         index: &I,
         rays: &[Ray],
+        (_, blocked): &mut Answers<'_>,
         flight: &mut InFlight<I::Cursor, C::Probe>,
     ) {
         let InFlight { slots, trails, lists, .. } = flight;
@@ -233,6 +234,10 @@ impl<I: Index, C: Children> Accel<I, C> {
             let (at, limit) = (slot.at, slot.limit);
             slot.at =
                 index.step::<S, Asks<ANY, true>>(simd, &mut walk, &mut slot.cursor, at, limit);
+            if I::TELLS && ANY && slot.at.is_hit() {
+                blocked[slot.ray as usize] = true;
+                slot.at = Step::DONE;
+            }
             self.fetch(index, &slot.cursor, slot.at);
             lists.sort_in(id, slot.at);
         }

@@ -57,7 +57,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             }
         }
         let (mut stamp, mut blocked) = (Stamp::NONE, false);
-        self.walk::<S, Unordered>(
+        let told = self.walk::<S, Unordered>(
             simd,
             ray,
             ray.t_max(),
@@ -69,7 +69,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             },
         );
         scratch.mailbox.close(stamp);
-        blocked
+        blocked | told
     }
 
     #[inline(always)]
@@ -99,7 +99,8 @@ impl<I: Index, C: Children> Accel<I, C> {
         scratch.mailbox.close(stamp);
     }
 
-    /// Shows every leaf the ray meets to `test`, which says how far to go on, or to stop.
+    /// Shows every leaf the ray meets to `test`, which says how far to go on, or to stop. Returns
+    /// whether the index says that something is hit.
     #[inline(always)]
     fn walk<S: Simd, Q: Query>(
         &self,
@@ -108,8 +109,8 @@ impl<I: Index, C: Children> Accel<I, C> {
         mut limit: f32,
         scratch: &mut Scratch,
         mut test: impl FnMut(Leaf, &This<'_, I, C>, &mut Scratch) -> ControlFlow<(), f32>,
-    ) {
-        let Some(index) = &self.index else { return };
+    ) -> bool {
+        let Some(index) = &self.index else { return false };
         let probe = self.members.children.probe(ray);
         let mut trail = Trail::new();
         let mut walk = Walk { ray, trail: &mut trail, family: &self.members };
@@ -122,12 +123,15 @@ impl<I: Index, C: Children> Accel<I, C> {
                 at = index.step::<S, Q>(simd, &mut walk, &mut cursor, at, limit);
             }
             if at.is_done() {
-                return;
+                return false;
+            }
+            if I::TELLS && at.is_hit() {
+                return true;
             }
             let this = This { index, ray, probe: &probe, cursor: &cursor };
             match test(at.as_leaf(), &this, scratch) {
                 ControlFlow::Continue(nearer) => limit = nearer,
-                ControlFlow::Break(()) => return,
+                ControlFlow::Break(()) => return false,
             }
             at = index.resume::<S, Q>(simd, &mut walk, &mut cursor, limit);
         }

@@ -34,6 +34,9 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// [`listed`]: Self::listed
     const LISTS: bool = false;
 
+    /// Whether [`step`](Self::step) may say [`Step::HIT`], to a [`Query`] for any hit.
+    const TELLS: bool = false;
+
     /// Whether it can look up where a whole bundle of rays starts ([`gather`](Self::gather)).
     const GATHERS: bool = false;
 

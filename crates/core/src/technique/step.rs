@@ -11,6 +11,9 @@ pub struct Step(u32);
 impl Step {
     /// Nothing is left.
     pub const DONE: Self = Self(trail::DONE);
+    /// Something is hit for certain, whatever it is: the end of a query for any hit. Only of an
+    /// index that [`TELLS`](crate::technique::Index::TELLS).
+    pub const HIT: Self = Self(trail::DONE - 1);
     const LEAF: u32 = 1 << 31;
 
     /// A node or cell.
@@ -56,6 +59,13 @@ impl Step {
         self.0 == trail::DONE
     }
 
+    /// Whether something is hit for certain.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_hit(self) -> bool {
+        self.0 == Self::HIT.0
+    }
+
     /// The leaf, if it is one.
     #[inline(always)]
     #[must_use]
@@ -74,8 +84,8 @@ impl Step {
     }
 }
 
-/// A leaf: its number while building, then whatever the children call it (31 bits, not
-/// all ones).
+/// A leaf: its number while building, then whatever the children call it (31 bits, but not the
+/// two greatest numbers).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Leaf(pub u32);
 

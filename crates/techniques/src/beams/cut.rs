@@ -5,8 +5,9 @@ use std::collections::BinaryHeap;
 
 use nestray_core::aabb::Aabb;
 use nestray_core::beam::Beam;
+use nestray_core::dispatch;
 use nestray_core::family::Family;
-use nestray_core::simd::SCALAR;
+use nestray_core::simd::{Level, Simd};
 use nestray_core::technique::{Leaves, Step};
 
 use crate::wide_tree::{Pencil, WideTree};
@@ -28,6 +29,16 @@ pub(crate) struct Name(u32);
 impl Name {
     fn new(node: u32, lane: usize) -> Self {
         Self(node << 3 | lane as u32)
+    }
+
+    /// From [`word`](Self::word).
+    pub(super) fn from_word(word: u32) -> Self {
+        Self(word)
+    }
+
+    /// As one word.
+    pub(super) fn word(self) -> u32 {
+        self.0
     }
 
     fn node(self) -> u32 {
@@ -190,7 +201,11 @@ impl Forest {
 
     /// Shows the lanes of a node that a beam meets.
     fn look_into(&self, pencil: &Pencil, node: u32, mut show: impl FnMut(Part)) {
-        let (mask, _, begin) = pencil.meets(SCALAR, self.tree.rows(Step::onward(node)));
+        let rows = self.tree.rows(Step::onward(node));
+        let (mask, begin) = dispatch!(Level::best(), simd => {
+            let (mask, _, begin) = pencil.meets(simd, rows);
+            (mask, simd.array(begin))
+        });
         for lane in (0..8).filter(|lane| mask >> lane & 1 == 1) {
             let size = self.tree.lane_box(node, lane).surface_area();
             show(Part { name: Name::new(node, lane), begin: begin[lane], size });
@@ -223,11 +238,11 @@ impl Cut {
     }
 
     /// All parts, in the order of the tree.
-    pub(crate) fn names(&self) -> Box<[Name]> {
+    pub(crate) fn names(&self) -> Vec<Name> {
         let mut names: Vec<Name> =
             self.whole.iter().chain(&self.leaves).map(|part| part.name).collect();
         names.sort_unstable();
-        names.into()
+        names
     }
 
     /// All parts.
