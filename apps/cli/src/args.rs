@@ -201,19 +201,20 @@ pub(crate) struct ConvertArgs {
 #[command(after_help = "Examples:\n  \
     nestray inspect --list techniques\n  \
     nestray inspect --list presets\n  \
-    nestray inspect scene.gltf --tree --plan grid\n  \
+    nestray inspect scene.gltf --plan grid\n  \
     nestray inspect scene.gltf --ray 320,240\n  \
     nestray inspect plan.json")]
 pub(crate) struct InspectArgs {
     /// A scene (a file, `-`, or `builtin:NAME`) or a plan file.
     #[arg(required_unless_present = "list", conflicts_with = "list")]
     pub(crate) scene: Option<String>,
-    /// Show the nest that the plan makes.
+    /// Show the nest that a plan makes, and what it does for rays of each kind: visits of each
+    /// part per ray, steps and tests per visit.
     #[arg(long)]
     pub(crate) tree: bool,
-    /// The plan for `--tree` and `--ray`: `auto`, a technique, a preset, or a plan file.
-    #[arg(long, default_value = "auto")]
-    pub(crate) plan: String,
+    /// The plan for `--ray`, or whose nest to show: `auto`, a technique, a preset, or a plan file.
+    #[arg(long)]
+    pub(crate) plan: Option<String>,
     /// Follow the ray through the middle of a pixel.
     #[arg(long, value_name = "X,Y", value_parser = values::pixel)]
     pub(crate) ray: Option<Numbers<2>>,

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
     let scene = input::scene(&args.scene, &LoadOptions::default(), &progress)?;
     let contenders = contenders(args, &scene, progress)?;
     // The first plan may be a slow one.
-    let sets = rays::sets(&scene, &alone("auto", &scene)?, args.rays)?;
+    let sets = rays::sets(&scene, &alone("auto", &scene)?, args.rays, 1)?;
     let mut report = Report::new(&contenders);
     let watching = progress.watch("bench");
     let worlds: Vec<DynObject> = contenders.iter().map(|c| c.world.clone()).collect();

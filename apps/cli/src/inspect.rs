@@ -1,6 +1,7 @@
 //! `nestray inspect`.
 
 mod list;
+mod pilot;
 mod plan;
 mod ray;
 mod scene;
@@ -20,7 +21,7 @@ pub(crate) fn run(args: &InspectArgs, talk: &Talk) -> Result<(), Failure> {
         (Some(list), _) => list::report(*list),
         (None, Some(name)) if is_plan(name) => plan::report(Path::new(name), args)?,
         (None, Some(name)) => {
-            let choice = input::choose(&args.plan)?;
+            let choice = input::choose(args.plan.as_deref().unwrap_or("auto"))?;
             let progress = Progress::new(talk);
             let scene = input::scene(name, &LoadOptions::default(), &progress)?;
             scene::report(&scene, &choice, args)?

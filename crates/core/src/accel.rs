@@ -14,6 +14,7 @@ use glam::Vec3A;
 use crate::aabb::Aabb;
 use crate::children::Children;
 use crate::cost::{Cost, CostModel};
+use crate::counters::{Own, Site};
 use crate::dispatch;
 use crate::hit::Hit;
 use crate::object::{Aggregate, DynObject, Object};
@@ -253,6 +254,12 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
             return *self.usual_cost.get_or_init(|| self.whole_cost(model));
         }
         self.whole_cost(model)
+    }
+
+    fn own(&self) -> Option<Own> {
+        let tests = self.expected.tests.iter().map(|&tests| f64::from(tests)).sum::<f64>();
+        let loose = self.loose().count() as f64;
+        Some(Own { site: Site::of(self), steps: self.expected.steps, tests: tests + loose })
     }
 
     fn settings(&self) -> String {

@@ -7,6 +7,7 @@ use glam::Vec3A;
 use crate::aabb::Aabb;
 use crate::beam::{Beam, Facing};
 use crate::cost::{Cost, CostModel};
+use crate::counters::Own;
 use crate::hit::Hit;
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
@@ -134,6 +135,11 @@ pub trait Object: Send + Sync {
     /// Expected cost of one uniformly random ray that meets [`bounds`](Self::bounds).
     fn cost(&self, model: &CostModel) -> Cost;
 
+    /// What it expects to do itself for such a ray, for reports; none if it is no aggregate.
+    fn own(&self) -> Option<Own> {
+        None
+    }
+
     /// Its settings, for reports; empty if it has none.
     fn settings(&self) -> String {
         String::new()
@@ -224,6 +230,9 @@ macro_rules! ask_inside {
         }
         fn cost(&self, model: &CostModel) -> Cost {
             (**self).cost(model)
+        }
+        fn own(&self) -> Option<Own> {
+            (**self).own()
         }
         fn settings(&self) -> String {
             (**self).settings()

@@ -5,6 +5,7 @@ use glam::Vec3A;
 use crate::aabb::Aabb;
 use crate::children::Children;
 use crate::cost::{Cost, CostModel};
+use crate::counters::{Own, Site};
 use crate::hit::Hit;
 use crate::object::Object;
 use crate::ray::{Ray, Source};
@@ -35,8 +36,10 @@ impl<C: Children> OneByOne<C> {
     fn counted(&self, ray: &Ray, scratch: &mut Scratch) -> std::ops::Range<u32> {
         let all = 0..self.children.count();
         if let Level::Counting(_) = scratch.level {
+            let site = Site::of(self);
+            scratch.counters.visit(ray.kind(), site);
             for child in all.clone() {
-                scratch.counters.tests(ray.kind(), self.children.kind(child), 1);
+                scratch.counters.tests(ray.kind(), self.children.kind(child), site, 1);
             }
         }
         all
@@ -107,6 +110,10 @@ impl<C: Children> Object for OneByOne<C> {
         }
         let cost = cost.plus(model.call, size_of::<Self>() as u64);
         Cost { hit_rate: 1.0 - missed, ..cost }
+    }
+
+    fn own(&self) -> Option<Own> {
+        Some(Own { site: Site::of(self), steps: 0.0, tests: self.children.count().into() })
     }
 
     fn visit_children(&self, visit: &mut dyn FnMut(&dyn Object)) {

@@ -34,6 +34,12 @@ impl Scratch {
     pub fn counting() -> Self {
         Self::with_level(Level::Counting(crate::simd::COUNTING))
     }
+
+    /// Counts for each aggregate too.
+    #[must_use]
+    pub fn counting_by_site() -> Self {
+        Self { counters: Counters::by_site(), ..Self::counting() }
+    }
 }
 
 impl Default for Scratch {

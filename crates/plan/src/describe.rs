@@ -1,8 +1,12 @@
 //! What an object is made of, for reports.
 
+mod counted;
+
 use nestray_core::cost::{Cost, CostModel};
 use nestray_core::object::Object;
 use serde::Serialize;
+
+pub use self::counted::{Counted, Doing, Expected, Sent};
 
 /// An object and what is in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,6 +22,9 @@ pub struct Part {
     pub nanos: f64,
     /// Memory in bytes, of all of them; what instances share counts for none of them.
     pub bytes: u64,
+    /// What it does itself, if it is an aggregate: expected, of the first; counted, of all.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub doing: Option<Doing>,
     /// What it is made of.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub children: Vec<Self>,
@@ -45,6 +52,7 @@ fn part(object: &dyn Object, model: &CostModel, left: &mut usize) -> Part {
         count: 1,
         nanos: cost.nanos(),
         bytes: cost.bytes,
+        doing: object.own().map(Doing::new),
         children: Vec::new(),
         cut: false,
     };
@@ -59,6 +67,7 @@ fn part(object: &dyn Object, model: &CostModel, left: &mut usize) -> Part {
             Some(other) => {
                 other.count += 1;
                 other.bytes += child.bytes;
+                other.absorb(child);
             }
             None => whole.children.push(child),
         }
@@ -80,7 +89,17 @@ impl Part {
                 .all(|(a, b)| a.count == b.count && a.is_like(b))
     }
 
-    /// As an indented text, a line each.
+    /// Takes in what is done in another that looks the same.
+    fn absorb(&mut self, other: Self) {
+        if let (Some(doing), Some(others)) = (&mut self.doing, other.doing) {
+            doing.absorb(others);
+        }
+        for (child, others) in self.children.iter_mut().zip(other.children) {
+            child.absorb(others);
+        }
+    }
+
+    /// As an indented text, a line each, and what is done in each aggregate if it was counted.
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::new();
@@ -101,6 +120,9 @@ impl Part {
             indent = 2 * level,
         );
         text.push_str(&line);
+        if let Some(doing) = self.doing.as_ref().filter(|doing| !doing.counted.is_empty()) {
+            doing.write(2 * level + 4, text);
+        }
         for child in &self.children {
             child.write(level + 1, text);
         }
@@ -128,8 +150,11 @@ mod tests {
     use std::sync::Arc;
 
     use glam::{Affine3A, Vec3A};
+    use nestray_core::hit::Hit;
     use nestray_core::instance::Instance;
     use nestray_core::object::DynObject;
+    use nestray_core::ray::{Ray, RayKind};
+    use nestray_core::scratch::Scratch;
     use nestray_registry::{Members, find};
     use nestray_shapes::shape::Single;
     use nestray_shapes::sphere::Sphere;
@@ -159,6 +184,34 @@ mod tests {
             "{text}"
         );
         assert!(lines[3].starts_with("      5 × sphere") && lines[4].starts_with("  sphere"));
+    }
+
+    #[test]
+    fn what_rays_did_is_told_of_each_aggregate_once() {
+        let tree = bvh((0..5).map(|i| sphere(3.0 * i as f32)).collect());
+        let place = |i: u16| {
+            let place = Affine3A::from_translation(glam::Vec3::Y * 10.0 * f32::from(i));
+            Arc::new(Instance::new(i.into(), Arc::clone(&tree), place)) as _
+        };
+        let world = bvh((1..4).map(place).collect());
+        let mut scratch = Scratch::counting_by_site();
+        for i in 0..4u8 {
+            // Two rays at each of the first instances, two at nothing.
+            let from = Vec3A::new(0.0, 10.0 + 10.0 * f32::from(i / 2), 5.0);
+            let to = if i % 2 == 0 { Vec3A::NEG_Z } else { Vec3A::Z };
+            let ray = Ray::new(from, to, RayKind::Reflect);
+            world.closest_hit(&ray, &mut Hit::none(ray.t_max()), &mut scratch);
+        }
+        let sent =
+            Sent { rays: vec![("bent".into(), RayKind::Reflect, 4)], counters: scratch.counters };
+        let part = describe(&world, CostModel::usual()).counted(&sent);
+        let counted = |part: &Part| part.doing.clone().expect("it is an aggregate").counted;
+        let only =
+            |visits, steps, tests| vec![Counted { rays: "bent".into(), visits, steps, tests }];
+        assert_eq!(counted(&part), only(1.0, 1.0, 0.5));
+        assert_eq!(counted(&part.children[0].children[0]), only(0.5, 1.0, 1.0));
+        let text = part.to_text();
+        assert!(text.contains("expected") && text.matches("bent").count() == 2, "{text}");
     }
 
     #[test]

@@ -8,18 +8,25 @@ use nestray::scene::light::{Light, LightKind};
 use crate::errors::Failure;
 
 /// Rays of one kind.
-pub(super) struct RaySet {
-    pub(super) name: &'static str,
-    pub(super) rays: Vec<Ray>,
+pub(crate) struct RaySet {
+    pub(crate) name: &'static str,
+    pub(crate) rays: Vec<Ray>,
     /// Whether it only matters that something is hit.
-    pub(super) any: bool,
+    pub(crate) any: bool,
 }
 
-/// Sets of at most `count` rays each; those without a ray are left out.
-pub(super) fn sets(scene: &Scene, world: &DynObject, count: usize) -> Result<Vec<RaySet>, Failure> {
+/// Sets of at most `count` rays each, towards each of the first `lights`; those without a ray are
+/// left out.
+pub(crate) fn sets(
+    scene: &Scene,
+    world: &DynObject,
+    count: usize,
+    lights: usize,
+) -> Result<Vec<RaySet>, Failure> {
     let camera = camera(scene, count);
     let mut sets = vec![RaySet { name: "camera", rays: camera, any: false }];
-    sets.extend(bounces(scene, world, &sets[0].rays)?);
+    let lights = &scene.lights[..lights.min(scene.lights.len())];
+    sets.extend(bounces(scene, lights, world, &sets[0].rays)?);
     sets.push(RaySet { name: "chords", rays: chords(world, count), any: false });
     sets.retain(|set| !set.rays.is_empty());
     Ok(sets)
@@ -36,8 +43,13 @@ fn camera(scene: &Scene, count: usize) -> Vec<Ray> {
         .collect()
 }
 
-/// From what rays hit: to the first light, mirrored, and scattered.
-fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3], Failure> {
+/// From what rays hit: to lights, mirrored, and scattered.
+fn bounces(
+    scene: &Scene,
+    lights: &[Light],
+    world: &DynObject,
+    rays: &[Ray],
+) -> Result<[RaySet; 3], Failure> {
     let surfaces = Surfaces::new(scene).map_err(|e| Failure::new(Failure::UNREADABLE, e))?;
     let (mut shadow, mut mirrored, mut diffuse) = (Vec::new(), Vec::new(), Vec::new());
     for (i, (ray, hit)) in rays.iter().zip(&closest_hits(world, rays)).enumerate() {
@@ -47,7 +59,7 @@ fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3]
         let at = surfaces.at(ray, hit).surface;
         let normal = if at.normal.dot(ray.dir()) > 0.0 { -at.normal } else { at.normal };
         let to = |dir: Vec3A, kind: RayKind| Ray::new(at.leave(dir), dir, kind);
-        shadow.extend(scene.lights.first().map(|light| to_light(&at, light)));
+        shadow.extend((0..).zip(lights).map(|(number, light)| to_light(&at, number, light)));
         let dir = ray.dir().normalize();
         mirrored.push(to(dir - normal * (2.0 * dir.dot(normal)), RayKind::Reflect));
         // A point on the sphere that touches the surface: scattered by Lambert's law.
@@ -60,9 +72,9 @@ fn bounces(scene: &Scene, world: &DynObject, rays: &[Ray]) -> Result<[RaySet; 3]
     ])
 }
 
-/// From a surface to the first light, up to just before it.
-pub(crate) fn to_light(at: &Surface, light: &Light) -> Ray {
-    let kind = RayKind::Shadow { light: 0 };
+/// From a surface to a light, up to just before it.
+pub(crate) fn to_light(at: &Surface, number: u16, light: &Light) -> Ray {
+    let kind = RayKind::Shadow { light: number };
     match light.kind {
         LightKind::Directional { direction } => Ray::new(at.leave(-direction), -direction, kind),
         LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {

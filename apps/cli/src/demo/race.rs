@@ -92,7 +92,7 @@ fn rays(scene: &Scene, world: &DynObject) -> Result<Vec<Ray>, Failure> {
     for (ray, hit) in eye.iter().zip(&hits) {
         rays.push(*ray);
         if let (true, Some(light)) = (hit.is_some(), scene.lights.first()) {
-            rays.push(to_light(&surfaces.at(ray, hit).surface, light));
+            rays.push(to_light(&surfaces.at(ray, hit).surface, 0, light));
         }
     }
     Ok(rays)

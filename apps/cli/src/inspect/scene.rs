@@ -10,7 +10,7 @@ use nestray::plan::fingerprint::fingerprint;
 use nestray::prelude::{Content, DynObject, Scene, Shape as _};
 use serde_json::{Value, json};
 
-use super::{Report, ray};
+use super::{Report, pilot, ray};
 use crate::args::InspectArgs;
 use crate::errors::Failure;
 use crate::input::Choice;
@@ -22,12 +22,13 @@ pub(super) fn report(
 ) -> Result<Report, Failure> {
     scene.check().map_err(|error| Failure::new(Failure::UNREADABLE, error))?;
     let mut report = counts(scene);
-    if args.tree || args.ray.is_some() {
+    let wants_tree = args.tree || (args.plan.is_some() && args.ray.is_none());
+    if wants_tree || args.ray.is_some() {
         let scene = scene.frame(0.0, 0.0);
         let plan = choice.plan(&scene)?;
         let world = build(&plan, &scene).map_err(|error| choice.failure(&error))?;
-        if args.tree {
-            tree(&world, &plan.hash(), &mut report);
+        if wants_tree {
+            tree(&scene, &world, &plan.hash(), &mut report)?;
         }
         if let Some(pixel) = args.ray {
             ray::add(pixel, args.resolution, &scene, &world, &mut report)?;
@@ -79,10 +80,16 @@ fn counts(scene: &Scene) -> Report {
     Report { text, json }
 }
 
-fn tree(world: &DynObject, hash: &str, report: &mut Report) {
-    let part = describe(world, CostModel::usual());
+/// What the nest is made of, and what each part of it does for rays of each kind.
+fn tree(scene: &Scene, world: &DynObject, hash: &str, report: &mut Report) -> Result<(), Failure> {
+    let sent = pilot::send(scene, world)?;
+    let part = describe(world, CostModel::usual()).counted(&sent);
     let _ = writeln!(report.text, "plan        {hash}");
+    let rays: Vec<String> = sent.rays.iter().map(|(name, _, n)| format!("{n} {name}")).collect();
+    let _ = writeln!(report.text, "rays sent   {}", rays.join(", "));
     report.text.push_str(&part.to_text());
+    report.json["rays_sent"] = sent.rays.iter().map(|(name, _, n)| (name.clone(), *n)).collect();
     report.json["plan"] = hash.into();
     report.json["tree"] = serde_json::to_value(&part).unwrap_or(Value::Null);
+    Ok(())
 }

@@ -195,6 +195,38 @@ fn plans_are_looked_at_and_used() {
 }
 
 #[test]
+fn what_rays_of_each_kind_do_is_counted_in_every_part_of_a_nest() {
+    let folder = Folder::new();
+    let plan = folder.write(
+        "plan.json",
+        r#"{ "version": 1, "root": { "nest": { "technique": "grid", "children": [
+             { "nest": { "technique": "bvh", "children": [ { "pick": 0 } ] } },
+             { "pick": "rest" } ] } } }"#,
+    );
+    let args = ["inspect", "builtin:mount@2", "--plan", &plan];
+    let said = nestray(&args).succeeds().output;
+    for word in ["\ngrid ", "\n  bvh ", "visits", "expected", "shadow 0", "diffuse", "chords"] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    assert_eq!(said, nestray(&args).succeeds().output, "the same rays are sent");
+    let said = nestray(&[&args[..], &["--json"]].concat()).succeeds().output;
+    let json: serde_json::Value = serde_json::from_str(&said).expect("JSON");
+    let counted = |part: &serde_json::Value| {
+        let camera = part["counted"].as_array().expect("it was met").first().expect("by some");
+        assert_eq!(camera["rays"], "camera");
+        ["visits", "steps", "tests"].map(|what| camera[what].as_f64().expect("a number"))
+    };
+    let root = counted(&json["tree"]);
+    assert!(root[0] == 1.0 && root[1] > 1.0, "{root:?}");
+    let bvh = json["tree"]["children"].as_array().expect("some").iter();
+    let bvh = bvh.into_iter().find(|part| part["kind"] == "bvh").expect("it is in the plan");
+    let inner = counted(bvh);
+    assert!(inner[0] > 0.0 && inner[0] < 1.0 && inner[1] >= 1.0, "{inner:?}");
+    assert!(bvh["expected"]["steps"].as_f64().expect("a number") >= 1.0);
+    assert_eq!(json["rays_sent"]["camera"], 4096);
+}
+
+#[test]
 fn a_plan_made_for_a_scene_is_used_with_no_other() {
     let folder = Folder::new();
     let said = nestray(&["inspect", "builtin:tetra@2", "--json"]).succeeds().output;

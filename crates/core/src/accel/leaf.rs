@@ -2,6 +2,7 @@
 
 use crate::accel::Accel;
 use crate::children::Children;
+use crate::counters::Site;
 use crate::hit::Hit;
 use crate::mailbox::Stamp;
 use crate::ray::Ray;
@@ -63,7 +64,8 @@ impl<I: Index, C: Children> Accel<I, C> {
     #[inline(always)]
     pub(super) fn count_test<S: Simd>(&self, ray: &Ray, child: u32, scratch: &mut Scratch) {
         if S::COUNTS {
-            scratch.counters.tests(ray.kind(), self.members.children.kind(child), 1);
+            let what = self.members.children.kind(child);
+            scratch.counters.tests(ray.kind(), what, Site::of(self), 1);
         }
     }
 
@@ -73,7 +75,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         if S::COUNTS {
             let children = &self.members.children;
             let count = u64::from(children.leaf_len(leaf));
-            scratch.counters.tests(ray.kind(), children.kind(0), count);
+            scratch.counters.tests(ray.kind(), children.kind(0), Site::of(self), count);
         }
     }
 

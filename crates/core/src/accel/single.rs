@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use crate::accel::Accel;
 use crate::accel::leaf::This;
 use crate::children::Children;
+use crate::counters::Site;
 use crate::hit::Hit;
 use crate::mailbox::Stamp;
 use crate::ray::Ray;
@@ -110,6 +111,9 @@ impl<I: Index, C: Children> Accel<I, C> {
         scratch: &mut Scratch,
         mut test: impl FnMut(Leaf, &This<'_, I, C>, &mut Scratch) -> ControlFlow<(), f32>,
     ) -> bool {
+        if S::COUNTS {
+            scratch.counters.visit(ray.kind(), Site::of(self));
+        }
         let Some(index) = &self.index else { return false };
         let probe = self.members.children.probe(ray);
         let mut trail = Trail::new();
@@ -118,7 +122,8 @@ impl<I: Index, C: Children> Accel<I, C> {
         loop {
             while at.is_onward() {
                 if S::COUNTS {
-                    scratch.counters.steps(ray.kind(), self.technique.name(), 1);
+                    let technique = self.technique.name();
+                    scratch.counters.steps(ray.kind(), technique, Site::of(self), 1);
                 }
                 at = index.step::<S, Q>(simd, &mut walk, &mut cursor, at, limit);
             }
