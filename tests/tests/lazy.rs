@@ -41,23 +41,27 @@ fn answer(world: &dyn Object, ray: &Ray, scratch: &mut Scratch) -> (Hit, bool) {
 /// All threads ask at once, each beginning with another ray.
 fn ask_at_once(nest: &dyn Object, rays: &[Ray], expected: &[(Hit, bool)], what: &str) {
     let begin = Barrier::new(THREADS);
-    thread::scope(|scope| {
-        for first in 0..THREADS {
-            let begin = &begin;
-            scope.spawn(move || {
-                let mut scratch = Scratch::new();
-                begin.wait();
-                for i in (0..rays.len()).map(|i| (i + first) % rays.len()) {
-                    let found = answer(nest, &rays[i], &mut scratch);
-                    assert_eq!(found, expected[i], "{what}: ray {i}, {:?}", rays[i]);
-                }
-            });
+    let ask = |first: usize| {
+        let mut scratch = Scratch::new();
+        begin.wait();
+        for i in (0..rays.len()).map(|i| (i + first) % rays.len()) {
+            let found = answer(nest, &rays[i], &mut scratch);
+            assert_eq!(found, expected[i], "{what}: ray {i}, {:?}", rays[i]);
         }
+    };
+    let ask = &ask;
+    thread::scope(|scope| {
+        let threads: Vec<_> = (0..THREADS).map(|first| scope.spawn(move || ask(first))).collect();
+        // ThreadSanitizer does not see the end of the scope.
+        threads.into_iter().for_each(|thread| thread.join().expect("all answers are right"));
     });
 }
 
 fn worlds() -> Vec<World> {
-    families(5).into_iter().filter(|world| ["objects", "soup"].contains(&world.name)).collect()
+    families(5)
+        .into_iter()
+        .filter(|world| ["objects", "loose triangles"].contains(&world.name))
+        .collect()
 }
 
 #[test]

@@ -13,10 +13,25 @@ struct Chore {
 struct Step {
     env: &'static [(&'static str, &'static str)],
     args: &'static [&'static str],
+    /// Whether it takes the nightly toolchain; left out where there is none.
+    nightly: bool,
 }
 
 const fn cargo(args: &'static [&'static str]) -> Step {
-    Step { env: &[], args }
+    Step { env: &[], args, nightly: false }
+}
+
+/// Tests that `ThreadSanitizer` watches.
+const fn watched(args: &'static [&'static str]) -> Step {
+    const ENV: &[(&str, &str)] = &[
+        ("RUSTFLAGS", "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer"),
+        ("CARGO_TARGET_DIR", "target/thread-sanitizer"),
+        (
+            "TSAN_OPTIONS",
+            concat!("suppressions=", env!("CARGO_MANIFEST_DIR"), "/thread-sanitizer.txt"),
+        ),
+    ];
+    Step { env: ENV, args, nightly: true }
 }
 
 /// A test across crates, with more of everything than usual, that says what it did.
@@ -34,6 +49,7 @@ macro_rules! long {
                 "--",
                 "--nocapture",
             ],
+            nightly: false,
         }
     };
 }
@@ -49,6 +65,7 @@ const CHORES: &[Chore] = &[
             Step {
                 env: &[("RUSTDOCFLAGS", "-D warnings")],
                 args: &["doc", "--workspace", "--no-deps"],
+                nightly: false,
             },
             cargo(&["test", "--workspace", "--release"]),
         ],
@@ -67,7 +84,17 @@ const CHORES: &[Chore] = &[
             Step {
                 env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
                 args: &["test", "--release", "-p", "nestray-core", "--lib", "slot"],
+                nightly: false,
             },
+            watched(&[
+                "test",
+                "--release",
+                "--target",
+                "host-tuple",
+                "-p",
+                "nestray-core",
+                "--lib",
+            ]),
         ],
     },
     Chore {
@@ -76,6 +103,25 @@ const CHORES: &[Chore] = &[
         steps: &[cargo(&["run", "--release", "-p", "nestray-sheet", "--"])],
     },
 ];
+
+impl Step {
+    fn command(&self) -> Command {
+        if !self.nightly {
+            return Command::new(env!("CARGO"));
+        }
+        let mut command = Command::new("rustup");
+        command.args(["run", "nightly", "cargo"]);
+        command
+    }
+}
+
+fn has_nightly() -> bool {
+    let mut asked = Command::new("rustup");
+    asked
+        .args(["run", "nightly", "cargo", "--version"])
+        .output()
+        .is_ok_and(|out| out.status.success())
+}
 
 fn main() -> ExitCode {
     let mut args = std::env::args().skip(1);
@@ -91,7 +137,11 @@ fn main() -> ExitCode {
     };
     for step in chore.steps {
         println!("\n> cargo {}", step.args.join(" "));
-        let mut command = Command::new(env!("CARGO"));
+        if step.nightly && !has_nightly() {
+            println!("skipped: there is no nightly toolchain (rustup toolchain install nightly)");
+            continue;
+        }
+        let mut command = step.command();
         match command.args(step.args).args(&rest).envs(step.env.iter().copied()).status() {
             Ok(status) if status.success() => {}
             Ok(status) => {

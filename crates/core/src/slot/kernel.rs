@@ -132,17 +132,18 @@ mod tests {
         for round in 0..200u64 {
             let (slot, made) = (Slot::new(), AtomicU32::new(0));
             thread::scope(|scope| {
-                for _ in 0..8 {
-                    scope.spawn(|| {
-                        for _ in 0..100 {
-                            let value = slot.get_or_make(|| {
-                                made.fetch_add(1, Ordering::Relaxed);
-                                Box::new([round; 64])
-                            });
-                            assert!(value.is_none_or(|value| **value == [round; 64]));
-                        }
-                    });
-                }
+                let come = || {
+                    for _ in 0..100 {
+                        let value = slot.get_or_make(|| {
+                            made.fetch_add(1, Ordering::Relaxed);
+                            Box::new([round; 64])
+                        });
+                        assert!(value.is_none_or(|value| **value == [round; 64]));
+                    }
+                };
+                let threads: Vec<_> = (0..8).map(|_| scope.spawn(come)).collect();
+                // ThreadSanitizer does not see the end of the scope.
+                threads.into_iter().for_each(|thread| thread.join().expect("it is right"));
             });
             assert_eq!(made.load(Ordering::Relaxed), 1);
             assert!(slot.get().is_some());
