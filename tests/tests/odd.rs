@@ -1,8 +1,10 @@
 //! Odd worlds: everything in one place, shell in shell, one huge thing among tiny ones. Every
 //! technique builds them with little stack and no more memory than random ones take, and answers
 //! as a list does.
+#![expect(clippy::print_stdout, reason = "how long it took is for people to look at")]
 
 use std::thread;
+use std::time::Instant;
 
 use glam::Vec3A;
 use nestray_core::cost::CostModel;
@@ -26,6 +28,12 @@ const MEMORY: u64 = 4;
 /// Children of each world; `NESTRAY_CHILDREN` asks for another number.
 fn children() -> usize {
     std::env::var("NESTRAY_CHILDREN").ok().and_then(|n| n.parse().ok()).unwrap_or(2_000)
+}
+
+/// Whether a technique is built: every one, or those `NESTRAY_TECHNIQUES` names.
+fn is_asked_for(name: &str) -> bool {
+    let asked = std::env::var("NESTRAY_TECHNIQUES");
+    asked.map_or(true, |asked| asked.split(',').any(|one| one == name))
 }
 
 fn ball(center: Vec3A, radius: f32) -> AnyShape {
@@ -86,17 +94,20 @@ fn odd_worlds_are_built_with_little_stack_and_memory_and_answered_as_by_lists() 
     let worlds = worlds(children());
     let list = find("list").expect("it is in the registry");
     let expected: Vec<_> = worlds.iter().map(|(_, shapes)| hits(&*nest(list, shapes))).collect();
-    for entry in TECHNIQUES {
+    for entry in TECHNIQUES.iter().filter(|entry| is_asked_for(entry.name)) {
         let mut usual = 0;
         for ((name, shapes), expected) in worlds.iter().zip(&expected) {
+            let begin = Instant::now();
             let build = || nest(entry, shapes);
             let built = thread::scope(|scope| {
                 let builder = thread::Builder::new().stack_size(STACK);
                 let running = builder.spawn_scoped(scope, build).expect("a thread");
                 running.join().expect("it builds")
             });
+            let seconds = begin.elapsed().as_secs_f32();
             assert!(hits(&*built) == *expected, "{} over a world {name}", entry.name);
             let bytes = built.cost(CostModel::usual()).bytes;
+            println!("{:20} {name:20} {seconds:8.2} s {:6} MB", entry.name, bytes >> 20);
             if usual == 0 {
                 usual = bytes;
             }

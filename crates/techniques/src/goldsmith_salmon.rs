@@ -7,6 +7,8 @@
 mod grow;
 mod order;
 
+use std::cell::OnceCell;
+
 use nestray_core::family::Family;
 use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use rayon::prelude::*;
@@ -47,7 +49,11 @@ impl Technique for GoldsmithSalmon {
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {
         let size = LeafSize { most: self.max_leaf, cost: self.leaf_cost };
-        WideTree::new(size, family, leaves, |of, halves_from| self.grown(of, halves_from))
+        // Grown once, however often it has to be made shallower.
+        let merges = OnceCell::new();
+        WideTree::new(size, family, leaves, |of, halves_from| {
+            Binary::merged(of, merges.get_or_init(|| self.merges(of)), halves_from)
+        })
     }
 
     fn neighbours(&self) -> Vec<Self> {
@@ -72,8 +78,8 @@ impl Technique for GoldsmithSalmon {
 }
 
 impl GoldsmithSalmon {
-    /// The cheapest tree of all tries.
-    fn grown<'a>(&self, of: &'a Contents, halves_from: usize) -> Binary<'a> {
+    /// The cheapest tree of all tries, in pairs.
+    fn merges<'a>(&self, of: &'a Contents) -> Vec<[u32; 2]> {
         let grown = |attempt: u32| {
             let order = if attempt == 0 { self.order } else { Order::Shuffled };
             let order = order.of(&of.boxes, self.seed.wrapping_add(u64::from(attempt)));
@@ -88,7 +94,7 @@ impl GoldsmithSalmon {
         };
         let best = (0..self.tries).into_par_iter().map(grown).reduce_with(cheaper);
         let (_, _, tree) = best.expect("there is a try at least");
-        Binary::merged(of, &tree.merges(), halves_from)
+        tree.merges()
     }
 }
 

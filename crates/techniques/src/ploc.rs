@@ -5,6 +5,8 @@
 
 mod merge;
 
+use std::cell::OnceCell;
+
 use nestray_core::family::Family;
 use nestray_core::technique::{Leaves, OutOfRange, Technique, in_range};
 use serde::{Deserialize, Serialize};
@@ -35,8 +37,11 @@ impl Technique for Ploc {
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {
         let size = LeafSize { most: self.max_leaf, cost: self.leaf_cost };
+        // Merged once, however often it has to be made shallower.
+        let merges = OnceCell::new();
         WideTree::new(size, family, leaves, |of, halves_from| {
-            Binary::merged(of, &merge::merges(of, self.window), halves_from)
+            let merges = merges.get_or_init(|| merge::merges(of, self.window));
+            Binary::merged(of, merges, halves_from)
         })
     }
 
