@@ -22,13 +22,14 @@ pub static PRESETS: &[Preset] = &[
     Preset {
         name: "scherson-caspary",
         about: "an octree of little depth, hierarchies of boxes in its cells",
-        nest: r#"{ "technique": "octree", "params": { "max_depth": 3 },
+        nest: r#"{ "technique": "octree",
+            "params": { "max_depth": 3, "max_leaf": 8, "places": "by-cost" },
             "leaves": { "technique": "bvh", "per_leaf": 256 } }"#,
     },
     Preset {
         name: "snyder-barr",
         about: "grids in the cells of a grid, lists where there is little",
-        nest: r#"{ "technique": "grid", "params": { "density": 0.004, "max_cells": 64 },
+        nest: r#"{ "technique": "grid", "params": { "max_cells": 16 },
             "leaves": { "technique": "grid", "params": { "density": 4.0 }, "more_than": 8 } }"#,
     },
     Preset {
@@ -39,8 +40,8 @@ pub static PRESETS: &[Preset] = &[
     Preset {
         name: "grid-over-bvh",
         about: "a coarse grid, hierarchies of boxes in its cells",
-        nest: r#"{ "technique": "grid", "params": { "density": 0.004, "max_cells": 64 },
-            "leaves": { "technique": "bvh" } }"#,
+        nest: r#"{ "technique": "grid", "params": { "max_cells": 16 },
+            "leaves": { "technique": "bvh", "per_leaf": 512 } }"#,
     },
     Preset {
         name: "kd-over-bvh",
