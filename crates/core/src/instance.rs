@@ -69,6 +69,29 @@ impl<O: Object> Instance<O> {
     }
 }
 
+impl<O: Object> Placed<O, Still> {
+    /// A part of the object in the same place: rays are moved and cut as for the whole.
+    pub(crate) fn part(&self, part: O) -> Self {
+        let Self { first, paths, motion, bounds, .. } = *self;
+        Self { first, paths, object: part, motion, bounds }
+    }
+
+    /// A box around where the object itself is.
+    pub(crate) fn tight_bounds(&self) -> Aabb {
+        self.motion.sweep(self.object.bounds(), [0.0, 1.0])
+    }
+
+    /// Out of the space of the object, and into it; none if it is flat.
+    pub(crate) fn place(&self) -> Option<[Affine3A; 2]> {
+        Some([self.motion.world_from_object, self.motion.object_from_world?])
+    }
+
+    /// What is placed.
+    pub(crate) fn inner(&self) -> &O {
+        &self.object
+    }
+}
+
 impl<O: Object, M: Motion> Placed<O, M> {
     /// Places `object` as `motion` says.
     #[must_use]

@@ -39,6 +39,8 @@ pub mod by_kind;
 
 pub mod lazy;
 
+pub mod opened;
+
 pub mod one_by_one;
 
 pub mod cost;
