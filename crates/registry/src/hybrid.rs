@@ -46,27 +46,46 @@ pub fn build(
     leaves: Option<&Filling>,
     members: Members,
 ) -> Result<DynObject, SettingsError> {
-    let Some(leaves) = leaves else { return (entry.build)(params, members) };
+    with_parts(entry, params, leaves, members).map(|(object, _)| object)
+}
+
+/// The same, and the objects that it orders; none if it is made of triangles or single shapes.
+///
+/// # Errors
+/// If settings of any of them are wrong.
+pub fn with_parts(
+    entry: &Entry,
+    params: &Value,
+    leaves: Option<&Filling>,
+    members: Members,
+) -> Result<(DynObject, Vec<DynObject>), SettingsError> {
+    let alone = |members: Members| {
+        let parts = match &members {
+            Members::Objects(objects) => objects.clone(),
+            _ => Vec::new(),
+        };
+        Ok(((entry.build)(params, members)?, parts))
+    };
+    let Some(leaves) = leaves else { return alone(members) };
     leaves.check()?;
     if members.count() <= leaves.more_than {
-        return (entry.build)(params, members);
+        return alone(members);
     }
     let division = (entry.divide)(params, &members, leaves.per_leaf)?;
     let (large, small): (Vec<_>, Vec<_>) =
         division.groups.into_iter().partition(|group| group.len() > leaves.more_than);
     match (&large[..], &small[..]) {
-        ([], _) => return (entry.build)(params, members),
-        ([_], []) => return leaves.fill(members),
+        ([], _) => return alone(members),
+        ([_], []) => return Ok((leaves.fill(members)?, Vec::new())),
         _ => {}
     }
     // One thread each; in order, and so always the same.
-    let large: Vec<DynObject> =
-        large.par_iter().map(|group| leaves.fill(members.part(group))).collect::<Result<_, _>>()?;
-    let mut objects = large;
+    let filled = large.par_iter().map(|group| leaves.fill(members.part(group)));
+    let mut objects = filled.collect::<Result<Vec<DynObject>, _>>()?;
     for group in small.iter().chain([&division.outside]) {
         objects.extend(apart(members.part(group))?);
     }
-    (entry.build)(params, Members::Objects(objects))
+    alone(Members::Objects(objects))
 }
 
 /// Children that are in no aggregate of the other technique; triangles are packed together.
