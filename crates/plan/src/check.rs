@@ -11,7 +11,6 @@ use nestray_core::aim::Aims;
 use nestray_core::by_kind::Case;
 use nestray_core::technique;
 use nestray_registry::Entry;
-use nestray_registry::hybrid::Filling;
 use nestray_scene::check::SceneError;
 use nestray_scene::group::Motion;
 use nestray_scene::paths::Paths;
@@ -20,8 +19,9 @@ use serde_json::Value;
 
 use self::cover::settle;
 use self::draft::draft;
-pub(crate) use self::draft::{filling, known};
+pub(crate) use self::draft::{known, order};
 use self::universe::Universe;
+use crate::build::Order;
 use crate::error::{PlanError, Problem};
 use crate::fingerprint;
 use crate::plan::{Node, Plan};
@@ -67,7 +67,7 @@ pub(crate) enum Tree<'a> {
     /// Places of the group; for each of them the shared subtree, which is called so.
     Place { leaf: Leaf, shared: &'a str, subtrees: Vec<usize> },
     /// A technique.
-    Nest { entry: &'static Entry, params: Value, leaves: Option<Box<Filling>>, children: Vec<Self> },
+    Nest { order: Box<Order>, children: Vec<Self> },
     /// By kind; the last case is `other`.
     ByKind { path: String, cases: Vec<(Option<Case>, Self)> },
     /// Built late.
@@ -173,15 +173,15 @@ impl<'a> Resolver<'a> {
                 }
                 Ok(moving)
             }
-            Tree::Nest { entry, params, leaves, children } => {
+            Tree::Nest { order, children } => {
                 let mut moving = false;
                 for (i, child) in children.iter_mut().enumerate() {
                     let path = format!("{path}/nest/children/{i}");
                     moving |= self.finish(&path, child, universe, instances)?;
                 }
                 let place = technique::Place { instances, moving };
-                self.aim(path, entry, params, &place)?;
-                let (mut path, mut leaves) = (format!("{path}/nest"), leaves);
+                self.aim(path, order.entry, &mut order.params, &place)?;
+                let (mut path, mut leaves) = (format!("{path}/nest"), &mut order.leaves);
                 while let Some(filling) = leaves {
                     path.push_str("/leaves");
                     self.aim(&path, filling.entry, &mut filling.params, &place)?;

@@ -116,7 +116,7 @@ mod tests {
         let nest = |names: [&str; 2]| {
             let params = names.iter().map(|&n| (n.to_owned(), n.len().into())).collect();
             let technique = "grid".into();
-            let nest = Nest { technique, params, leaves: None, children: Vec::new() };
+            let nest = Nest { technique, params, leaves: None, open: 0.0, children: Vec::new() };
             Plan::new(Node::Nest(nest)).hash()
         };
         assert_eq!(nest(["a", "bb"]), nest(["bb", "a"]));

@@ -1,15 +1,17 @@
 //! Plans: meta-hierarchies written down.
 
+mod leaves;
+
 use std::collections::BTreeMap;
-use std::num::NonZeroU32;
 
 use nestray_core::by_kind::Case;
-use nestray_registry::hybrid::Filling;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::select::Selection;
+
+pub use self::leaves::Leaves;
 
 /// How a scene is put in order. It names geometry and never holds it; the scene knows
 /// nothing of plans.
@@ -67,46 +69,19 @@ pub struct Nest {
     /// What its leaves are put in order by, if not by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leaves: Option<Box<Leaves>>,
+    /// How many more children there may be, per instance, if large instances are taken apart:
+    /// those of nests over several objects, or with `leaves`. 0 takes none apart.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub open: f32,
     /// What it puts in order; none is fine.
     #[serde(default)]
     pub children: Vec<Node>,
 }
 
-/// A technique for the leaves of another.
-///
-/// The technique above is asked what it would put in its leaves; its settings decide how much.
-/// A child that would be in several leaves is given to the one it fits best. What is in a leaf of
-/// more than `more_than` children becomes an aggregate by this technique, and the technique
-/// above orders these aggregates and all else. Children without bounds stay above.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Leaves {
-    /// Which technique; the command line lists them.
-    pub technique: String,
-    /// Its settings; a missing one takes its default.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub params: Map<String, Value>,
-    /// Leaves of so many children or fewer are left as they are.
-    #[serde(default = "more_than")]
-    pub more_than: NonZeroU32,
-    /// How many children in one leaf the technique above may take to be as cheap as a few of
-    /// them are alone.
-    #[serde(default = "per_leaf")]
-    pub per_leaf: NonZeroU32,
-    /// Whether a leaf is put in order when the first ray comes to it.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub lazy: bool,
-    /// What the leaves of this technique are put in order by, if not by itself.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub leaves: Option<Box<Self>>,
-}
-
-fn more_than() -> NonZeroU32 {
-    NonZeroU32::new(Filling::MORE_THAN).expect("it is not zero")
-}
-
-fn per_leaf() -> NonZeroU32 {
-    NonZeroU32::new(Filling::PER_LEAF).expect("it is not zero")
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
+fn is_zero(number: &f32) -> bool {
+    *number == 0.0
 }
 
 /// A shared subtree, wherever the instances put it.
@@ -182,6 +157,8 @@ impl Plan {
 impl Nest {
     /// Most triangles of a mesh that is no aggregate of its own.
     pub const TINY: u32 = 8;
+    /// What [`open`](Self::open) is at most.
+    pub const MOST_OPEN: f32 = 1000.0;
 
     /// The techniques for its leaves, and for the leaves of these, each with what leads to it.
     pub fn all_leaves(&self) -> impl Iterator<Item = (String, &Leaves)> {
@@ -195,27 +172,12 @@ impl Nest {
     }
 }
 
-impl Leaves {
-    /// A technique with its defaults.
-    #[must_use]
-    pub fn new(technique: impl Into<String>) -> Self {
-        Self {
-            technique: technique.into(),
-            params: Map::new(),
-            more_than: more_than(),
-            per_leaf: per_leaf(),
-            lazy: false,
-            leaves: None,
-        }
-    }
-}
-
 impl Node {
     /// A technique with its defaults over children.
     #[must_use]
     pub fn nest(technique: impl Into<String>, children: Vec<Self>) -> Self {
         let (technique, params) = (technique.into(), Map::new());
-        Self::Nest(Nest { technique, params, leaves: None, children })
+        Self::Nest(Nest { technique, params, leaves: None, open: 0.0, children })
     }
 
     /// All geometries that are not picked elsewhere.

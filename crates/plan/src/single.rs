@@ -52,7 +52,7 @@ fn nest(name: &str) -> Option<Nest> {
 
 fn plain(technique: &str) -> Nest {
     let technique = technique.into();
-    Nest { technique, params: Map::new(), leaves: None, children: Vec::new() }
+    Nest { technique, params: Map::new(), leaves: None, open: 0.0, children: Vec::new() }
 }
 
 /// Whether nothing in a nest objects to a place below an instance.

@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use super::universe::Universe;
 use super::{Leaf, Tree};
+use crate::build::Order;
 use crate::error::PlanError;
-use crate::plan::{Leaves, Node};
+use crate::plan::{Leaves, Nest, Node};
 
 /// A node with its own selections looked up.
 pub(super) fn draft<'a>(
@@ -35,12 +36,8 @@ pub(super) fn draft<'a>(
                 .iter()
                 .enumerate()
                 .map(|(i, child)| draft(&format!("{path}/nest/children/{i}"), child, universe));
-            Tree::Nest {
-                entry: known(&nest.technique),
-                params: Value::Object(nest.params.clone()),
-                leaves: nest.leaves.as_deref().map(filling),
-                children: children.collect::<Result<_, _>>()?,
-            }
+            let children = children.collect::<Result<_, _>>()?;
+            Tree::Nest { order: Box::new(order(nest)), children }
         }
         Node::ByKind(by_kind) => {
             let cases = by_kind.cases().into_iter().map(|(case, name, node)| {
@@ -52,8 +49,18 @@ pub(super) fn draft<'a>(
     })
 }
 
+/// How a nest is put in order, whatever is in it.
+pub(crate) fn order(nest: &Nest) -> Order {
+    Order {
+        entry: known(&nest.technique),
+        params: Value::Object(nest.params.clone()),
+        leaves: nest.leaves.as_deref().map(filling),
+        open: nest.open,
+    }
+}
+
 /// Leaves with their techniques looked up.
-pub(crate) fn filling(leaves: &Leaves) -> Box<Filling> {
+fn filling(leaves: &Leaves) -> Box<Filling> {
     Box::new(Filling {
         entry: known(&leaves.technique),
         params: Value::Object(leaves.params.clone()),

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use nestray_registry::{self as registry, SettingsError};
 use serde_json::{Map, Value};
 
+use super::draft::known;
 use crate::error::{PlanError, Problem, nearest};
-use crate::plan::{Node, Plan};
+use crate::plan::{Nest, Node, Plan};
 
 /// Checks version, depth, techniques, settings, and that shared subtrees are there, in no
 /// circle.
@@ -102,6 +103,13 @@ impl<'a> Heights<'a> {
 fn words(path: &str, node: &Node) -> Result<(), PlanError> {
     if let Node::Nest(nest) = node {
         settings(&format!("{path}/nest"), &nest.technique, &nest.params)?;
+        if !(0.0..=Nest::MOST_OPEN).contains(&nest.open) {
+            let range = format!("0 to {}", Nest::MOST_OPEN);
+            let error = SettingsError::OutOfRange { setting: "open".into(), range };
+            let technique = known(&nest.technique).name;
+            let problem = Problem::Settings { technique, error, nearest: None };
+            return Err(PlanError::at(format!("{path}/nest/open"), problem));
+        }
         for (below, leaves) in nest.all_leaves() {
             settings(&format!("{path}/{below}"), &leaves.technique, &leaves.params)?;
         }
