@@ -114,6 +114,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             self.expected.tests = vec![self.expected.tests.iter().sum()];
             index.rename_leaves(&self.members.children.pack(&leaves, &self.members.names));
         } else {
+            leaves.sort_by(&self.members.promises());
             let (table, leaves) = leaves.into_table();
             self.table = table;
             index.rename_leaves(&leaves);

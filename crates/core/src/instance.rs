@@ -1,5 +1,7 @@
 //! One object placed in another space.
 
+mod still;
+
 use std::fmt::Debug;
 
 use glam::{Affine3A, Vec3A};
@@ -11,6 +13,8 @@ use crate::object::Object;
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
 use crate::surface::Surface;
+
+pub use self::still::Still;
 
 /// Where an object is, during the shutter.
 pub trait Motion: Debug + Send + Sync {
@@ -27,16 +31,15 @@ pub trait Motion: Debug + Send + Sync {
     /// Out of the space of the object at `time`.
     fn world_from_object(&self, time: f32) -> Affine3A;
 
+    /// What `direction · point` is of a point outside, told by the same point inside: the product
+    /// with another direction, and what to add. None if it moves, or nobody knows.
+    fn direction_inside(&self, _direction: Vec3A) -> Option<(Vec3A, f32)> {
+        None
+    }
+
     /// A box around all places of `local` during `[from, to]`, where `local` is a box around
     /// the object at any time.
     fn sweep(&self, local: Aabb, time: [f32; 2]) -> Aabb;
-}
-
-/// Never moves.
-#[derive(Clone, Copy, Debug)]
-pub struct Still {
-    world_from_object: Affine3A,
-    object_from_world: Option<Affine3A>,
 }
 
 /// An object, transformed. Many instances may share one object, with all the
@@ -151,7 +154,14 @@ impl<O: Object, M: Motion> Object for Placed<O, M> {
     }
 
     fn along(&self, direction: Vec3A) -> [f32; 2] {
-        self.bounds.along(direction)
+        let [least, most] = self.bounds.along(direction);
+        let Some((inside, shift)) = self.motion.direction_inside(direction) else {
+            return [least, most];
+        };
+        let [low, high] = self.object.along(inside);
+        let room = 8.0 * f32::EPSILON * self.bounds.reach();
+        // A NaN is no answer.
+        [(low + shift - room).max(least), (high + shift + room).min(most)]
     }
 
     fn closest_hit(&self, ray: &Ray, hit: &mut Hit, scratch: &mut Scratch) -> bool {
@@ -234,35 +244,6 @@ impl<O: Object, M: Motion> Object for Placed<O, M> {
 
     fn visit_children(&self, visit: &mut dyn FnMut(&dyn Object)) {
         visit(&self.object);
-    }
-}
-
-impl Still {
-    /// A place that never changes.
-    #[must_use]
-    pub fn new(world_from_object: Affine3A) -> Self {
-        Self { world_from_object, object_from_world: inverse(&world_from_object) }
-    }
-}
-
-impl Motion for Still {
-    const KIND: &'static str = "instance";
-    const MOVES: bool = false;
-
-    #[inline(always)]
-    fn object_from_world(&self, _time: f32) -> Option<Affine3A> {
-        self.object_from_world
-    }
-
-    fn world_from_object(&self, _time: f32) -> Affine3A {
-        self.world_from_object
-    }
-
-    fn sweep(&self, local: Aabb, _time: [f32; 2]) -> Aabb {
-        match self.object_from_world {
-            Some(_) => local.transformed(&self.world_from_object),
-            None => Aabb::EMPTY,
-        }
     }
 }
 

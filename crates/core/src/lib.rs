@@ -37,6 +37,8 @@ pub mod moving;
 
 pub mod by_kind;
 
+pub mod fence;
+
 pub mod lazy;
 
 pub mod opened;

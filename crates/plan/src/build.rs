@@ -1,5 +1,6 @@
 //! From a plan and a scene to the objects.
 
+mod fences;
 mod open;
 mod order;
 mod recipe;

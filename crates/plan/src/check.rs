@@ -24,7 +24,7 @@ use self::universe::Universe;
 use crate::build::Order;
 use crate::error::{PlanError, Problem};
 use crate::fingerprint;
-use crate::plan::{Node, Plan};
+use crate::plan::{Bounds, Node, Plan};
 
 /// Checks that a plan can be built for a scene: that its techniques, settings, names and
 /// shared subtrees exist, that it is not too deep, that every technique can serve where it
@@ -72,6 +72,7 @@ pub(crate) enum Tree<'a> {
     ByKind { path: String, cases: Vec<(Option<Case>, Self)> },
     /// Built late.
     Lazy(Box<Self>),
+    Fence(Bounds, Box<Self>),
 }
 
 /// What a selection selects.
@@ -198,6 +199,9 @@ impl<'a> Resolver<'a> {
                 Ok(moving)
             }
             Tree::Lazy(inner) => self.finish(&format!("{path}/lazy"), inner, universe, instances),
+            Tree::Fence(_, inner) => {
+                self.finish(&format!("{path}/fence/around"), inner, universe, instances)
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! Plans: meta-hierarchies written down.
 
+mod fence;
 mod leaves;
 
 use std::collections::BTreeMap;
@@ -11,6 +12,7 @@ use serde_json::{Map, Value};
 
 use crate::select::Selection;
 
+pub use self::fence::{Bounds, Fence};
 pub use self::leaves::Leaves;
 
 /// How a scene is put in order. It names geometry and never holds it; the scene knows
@@ -50,6 +52,8 @@ pub enum Node {
     ByKind(Box<ByKind>),
     /// Built when the first ray reaches it.
     Lazy(Box<Self>),
+    /// Tighter bounds around each part of another node.
+    Fence(Box<Fence>),
 }
 
 /// A technique over children.
@@ -201,6 +205,7 @@ impl Node {
                 }
             }
             Self::Lazy(inner) => visit("lazy".into(), inner),
+            Self::Fence(fence) => visit("fence/around".into(), &fence.around),
         }
     }
 }

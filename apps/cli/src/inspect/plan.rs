@@ -58,6 +58,7 @@ fn tree(name: &str, node: &Node, level: usize, text: &mut String) {
         }
         Node::ByKind(_) => "by kind".into(),
         Node::Lazy(_) => "lazy".into(),
+        Node::Fence(fence) => format!("fence, {}", fence.by.name()),
     };
     let name = if name.is_empty() { String::new() } else { format!("{name}: ") };
     let _ = writeln!(text, "{:indent$}{name}{what}", "", indent = 2 * level);

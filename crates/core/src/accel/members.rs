@@ -31,6 +31,16 @@ impl<C: Children> Members<C> {
             !bounds.is_empty() && bounds.is_bounded()
         });
     }
+
+    /// For each child the chance that it is hit for what a test costs. Where several stand
+    /// together, the one with the best is tested first: what is behind it is then not tested.
+    pub(super) fn promises(&self) -> Vec<f64> {
+        let promise = |number| {
+            let cost = self.children.cost(self.names.child(number), CostModel::usual());
+            cost.hit_rate / cost.nanos().max(f64::MIN_POSITIVE)
+        };
+        (0..self.names.count()).map(promise).collect()
+    }
 }
 
 impl<C: Children> Family for Members<C> {

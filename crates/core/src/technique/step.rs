@@ -121,6 +121,21 @@ impl Leaves {
         &self.entries[start + 1..][..self.entries[start] as usize]
     }
 
+    /// Puts the children of each leaf in order, the greatest of `numbers` first; what has the same
+    /// stays as it is.
+    pub(crate) fn sort_by(&mut self, numbers: &[f64]) {
+        if numbers.windows(2).all(|pair| pair[0] == pair[1]) {
+            return;
+        }
+        for &start in &self.starts {
+            let start = start as usize;
+            let count = self.entries[start] as usize;
+            let children = &mut self.entries[start + 1..][..count];
+            let number = |child: u32| numbers[child as usize];
+            children.sort_by(|&a, &b| number(b).total_cmp(&number(a)));
+        }
+    }
+
     /// Gives up the numbers: what is left is one table, and where each leaf begins in it.
     pub(crate) fn into_table(self) -> (Vec<u32>, Vec<Leaf>) {
         (self.entries, self.starts.into_iter().map(Leaf).collect())

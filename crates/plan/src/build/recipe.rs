@@ -16,9 +16,10 @@ use nestray_shapes::any::AnyShape;
 use nestray_shapes::shape::Single;
 use nestray_shapes::triangle_mesh::TriangleMesh;
 
+use super::fences;
 use super::order::{Order, Part, Placed, Whole, aggregate};
 use crate::check::{Resolved, Tree};
-use crate::plan::Nest;
+use crate::plan::{Bounds, Nest};
 use crate::single::AUTO;
 
 /// What is needed to build a part of a plan, and nothing else: a lazy part keeps one.
@@ -32,6 +33,8 @@ pub(super) enum Recipe {
     ByKind(Vec<(Option<Case>, Self)>),
     /// Built late.
     Lazy(Arc<Self>),
+    /// Each part behind a fence.
+    Fence(Bounds, Box<Self>),
 }
 
 /// Looks up whatever a subtree names; `shared` are the subtrees built so far.
@@ -63,6 +66,7 @@ pub(super) fn recipe(
             Recipe::ByKind(cases.iter().map(|(case, tree)| (*case, inner(tree))).collect())
         }
         Tree::Lazy(tree) => Recipe::Lazy(Arc::new(inner(tree))),
+        Tree::Fence(by, tree) => Recipe::Fence(*by, Box::new(inner(tree))),
     }
 }
 
@@ -143,6 +147,7 @@ impl Recipe {
                 let inner = Arc::clone(inner);
                 vec![Part::Object(Arc::new(Lazy::new(stand_in, move || inner.whole().object)))]
             }
+            Self::Fence(by, inner) => fences::around(*by, inner.parts()),
         }
     }
 
@@ -161,6 +166,7 @@ impl Recipe {
                 }
             }
             Self::Lazy(inner) => inner.flatten(parts),
+            Self::Fence(_, inner) => inner.flatten(parts),
         }
     }
 }

@@ -54,7 +54,7 @@ fn count(tree: &Tree<'_>, by: i64, picked: &mut [i64]) {
                 *picked += if any > 0 { by } else { 0 };
             }
         }
-        Tree::Lazy(inner) => count(inner, by, picked),
+        Tree::Lazy(inner) | Tree::Fence(_, inner) => count(inner, by, picked),
     }
 }
 
@@ -79,7 +79,7 @@ impl Cover<'_> {
                 Ok(held)
             }
             Tree::ByKind { .. } => self.by_kind(tree),
-            Tree::Lazy(inner) => self.settle(inner),
+            Tree::Lazy(inner) | Tree::Fence(_, inner) => self.settle(inner),
         }
     }
 

@@ -45,6 +45,10 @@ pub(super) fn draft<'a>(
             });
             Tree::ByKind { path: path.to_owned(), cases: cases.collect::<Result<_, PlanError>>()? }
         }
+        Node::Fence(fence) => {
+            let inner = draft(&format!("{path}/fence/around"), &fence.around, universe)?;
+            Tree::Fence(fence.by, Box::new(inner))
+        }
         Node::Lazy(inner) => Tree::Lazy(Box::new(draft(&format!("{path}/lazy"), inner, universe)?)),
     })
 }

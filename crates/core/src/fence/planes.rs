@@ -1,0 +1,199 @@
+//! Pairs of parallel planes around an object.
+
+use glam::{Mat3A, Vec3A};
+
+use crate::aabb::{Aabb, Clip};
+use crate::object::Object;
+use crate::ray::{Ray, RayKind};
+
+/// What lies between several pairs of parallel planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planes {
+    pairs: Box<[Pair]>,
+    /// Largest coordinate of what is between, which rounding errors are relative to.
+    reach: f32,
+}
+
+/// All points with `direction · point` in `[low, high]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pair {
+    direction: Vec3A,
+    low: f32,
+    high: f32,
+}
+
+/// How far planes are moved outwards, relative to the largest coordinate: three coordinates add
+/// up, each with the slack of a box test, and so does what rounding does to `direction · dir`
+/// along the whole way of the ray.
+const SLACK: f32 = 64.0 * f32::EPSILON;
+
+/// Price of testing a pair, in nanoseconds.
+const PRICE: f64 = 4.0;
+
+/// Directions looked at to turn a box.
+const LOOKS: u32 = 128;
+
+impl Planes {
+    /// The box around `object` of least surface that was found, turned anyhow. None if it has
+    /// no bounds.
+    #[must_use]
+    pub fn turned_box(object: &dyn Object) -> Option<Self> {
+        if !is_bounded(object) {
+            return None;
+        }
+        let width = |direction: Vec3A| {
+            let [low, high] = object.along(direction);
+            high - low
+        };
+        // Rods have a direction in which they are long, plates one in which they are short.
+        let long = climb(&|direction| width(direction));
+        let short = climb(&|direction| -width(direction));
+        let around = [long, short].map(|first| {
+            let (u, v) = first.any_orthonormal_pair();
+            let turn = |step: u32| {
+                // From no turn to a quarter, without an angle.
+                let t = step as f32 / 32.0;
+                let (cos, sin) = ((1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t));
+                Mat3A::from_cols(first, u * cos + v * sin, v * cos - u * sin)
+            };
+            (0..32).map(turn).collect::<Vec<_>>()
+        });
+        let area = |axes: &Mat3A| {
+            let [a, b, c] = [axes.x_axis, axes.y_axis, axes.z_axis].map(width);
+            a * b + b * c + c * a
+        };
+        let all = std::iter::once(Mat3A::IDENTITY).chain(around.into_iter().flatten());
+        let best = all.min_by(|a, b| area(a).total_cmp(&area(b)))?;
+        Self::along(object, &[best.x_axis, best.y_axis, best.z_axis])
+    }
+
+    /// Thirteen slabs around `object`: across the axes, the diagonals of a cube and those of its
+    /// faces [Kay 86]. None if it has no bounds.
+    #[must_use]
+    pub fn slabs(object: &dyn Object) -> Option<Self> {
+        let mut directions = Vec::with_capacity(13);
+        for x in [-1.0, 0.0, 1.0] {
+            for y in [-1.0, 0.0, 1.0] {
+                directions.extend([-1.0, 0.0, 1.0].map(|z| Vec3A::new(x, y, z)));
+            }
+        }
+        // Each comes with its opposite; the middle one is none.
+        directions.truncate(13);
+        is_bounded(object).then(|| Self::along(object, &directions))?
+    }
+
+    fn along(object: &dyn Object, directions: &[Vec3A]) -> Option<Self> {
+        let pairs = directions.iter().map(|&direction| {
+            let [low, high] = object.along(direction);
+            Pair { direction, low, high }
+        });
+        let pairs: Box<[Pair]> = pairs.collect();
+        let sound = pairs.iter().all(|pair| pair.low <= pair.high);
+        sound.then(|| Self { pairs, reach: object.bounds().reach() })
+    }
+
+    /// Whether a ray may meet what is between, up to `limit`.
+    #[inline]
+    #[must_use]
+    pub fn admit(&self, ray: &Ray, limit: f32) -> bool {
+        let (origin, dir) = (ray.origin(), ray.dir());
+        let slack = origin.abs().max_element().max(self.reach) * SLACK;
+        // Slower than this is all rounding. The slack has room for what the change moves.
+        let least = dir.abs().max_element() * (4.0 * f32::EPSILON);
+        let (mut enter, mut leave) = (ray.t_min(), limit);
+        for pair in &self.pairs {
+            let speed = pair.direction.dot(dir);
+            let speed = if speed.abs() < least { least.copysign(speed) } else { speed };
+            let (inverse, middle) = (1.0 / speed, pair.direction.dot(origin));
+            let a = (pair.low - slack - middle) * inverse;
+            let b = (pair.high + slack - middle) * inverse;
+            // What is NaN narrows nothing.
+            enter = a.min(b).max(enter);
+            leave = a.max(b).min(leave);
+        }
+        enter <= leave
+    }
+
+    /// Of uniformly random rays that meet `bounds`, how many come through; by sample.
+    #[must_use]
+    pub fn share(&self, bounds: &Aabb) -> f64 {
+        const LINES: u32 = 512;
+        let radius = 0.5 * bounds.size().length();
+        let (mut met, mut through) = (0u32, 0u32);
+        for line in 0..LINES {
+            let [a, b, c, d] = spread(line);
+            let Some(dir) = on_sphere(a, b) else { continue };
+            let (u, v) = dir.any_orthonormal_pair();
+            let aside = (u * (2.0 * c - 1.0) + v * (2.0 * d - 1.0)) * radius;
+            let ray = Ray::new(bounds.center() + aside - dir * radius, dir, RayKind::Camera);
+            if Clip::new(&ray, bounds.reach()).cut(bounds, f32::INFINITY).is_some() {
+                met += 1;
+                through += u32::from(self.admit(&ray, f32::INFINITY));
+            }
+        }
+        f64::from(through) / f64::from(met.max(1))
+    }
+
+    /// What asking costs, in nanoseconds.
+    #[must_use]
+    pub fn price(&self) -> f64 {
+        PRICE * (self.pairs.len() as f64 + 1.0)
+    }
+
+    /// Memory beside itself.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        size_of_val(&*self.pairs) as u64
+    }
+
+    /// In a word, for reports.
+    #[must_use]
+    pub fn settings(&self) -> String {
+        let kind = if self.pairs.len() == 3 { "a turned box" } else { "13 slabs" };
+        kind.to_owned()
+    }
+}
+
+fn is_bounded(object: &dyn Object) -> bool {
+    let bounds = object.bounds();
+    !bounds.is_empty() && bounds.is_bounded()
+}
+
+/// The direction in which `height` is greatest, about.
+fn climb(height: &dyn Fn(Vec3A) -> f32) -> Vec3A {
+    let start = (0..LOOKS).filter_map(|look| {
+        let [a, b, ..] = spread(look);
+        on_sphere(a, b)
+    });
+    let start = start.chain([Vec3A::X, Vec3A::Y, Vec3A::Z]);
+    let mut best = start.max_by(|a, b| height(*a).total_cmp(&height(*b))).unwrap_or(Vec3A::X);
+    let mut angle = 0.2f32;
+    while angle > 1e-4 {
+        let (u, v) = best.any_orthonormal_pair();
+        let near = [u, v, u + v, u - v, -u, -v, -u - v, v - u];
+        let next = near.into_iter().map(|aside| (best + aside * angle).normalize());
+        let next = next.max_by(|a, b| height(*a).total_cmp(&height(*b))).unwrap_or(best);
+        if height(next) > height(best) {
+            best = next;
+        } else {
+            angle *= 0.5;
+        }
+    }
+    best
+}
+
+/// Point number `n` of a sequence that fills a cube of four dimensions evenly [Roberts 18].
+fn spread(n: u32) -> [f32; 4] {
+    // Powers of the root of `x⁵ = x + 1`.
+    const STEPS: [f64; 4] = [0.856_674_883_8, 0.733_891_856_6, 0.628_706_721_0, 0.538_597_257_2];
+    STEPS.map(|step| (0.5 + step * f64::from(n + 1)).fract() as f32)
+}
+
+/// A point of the unit sphere, as likely as any other if the numbers are; they may give none
+/// [Marsaglia 72].
+fn on_sphere(a: f32, b: f32) -> Option<Vec3A> {
+    let (x, y) = (2.0 * a - 1.0, 2.0 * b - 1.0);
+    let square = x * x + y * y;
+    let root = 2.0 * (1.0 - square).max(0.0).sqrt();
+    (square < 1.0).then(|| Vec3A::new(x * root, y * root, 1.0 - 2.0 * square))
+}

@@ -1,0 +1,38 @@
+//! Tighter bounds around parts.
+
+use std::sync::Arc;
+
+use nestray_core::cost::CostModel;
+use nestray_core::fence::{Fenced, Planes};
+use nestray_core::object::DynObject;
+use rayon::prelude::*;
+
+use super::order::Part;
+use crate::plan::Bounds;
+
+/// The same parts, each behind a fence where there can be one.
+pub(super) fn around(by: Bounds, parts: Vec<Part>) -> Vec<Part> {
+    // One thread each; in order, and so always the same.
+    parts.into_par_iter().map(|part| fenced(by, part)).collect()
+}
+
+fn fenced(bounds: Bounds, part: Part) -> Part {
+    let object = match &part {
+        Part::Mesh(_) => return part,
+        Part::Shape(single) => {
+            let single = single.clone();
+            single.shape.into_object(single.geometry, single.primitive, single.sides)
+        }
+        Part::Object(object) => Arc::clone(object),
+        Part::Placed(placed) => Arc::clone(&placed.instance) as DynObject,
+    };
+    let by = |planes: Option<Planes>| {
+        Some(Arc::new(Fenced::new(Arc::clone(&object), planes?)) as DynObject)
+    };
+    let found = match bounds {
+        Bounds::Cheapest => Fenced::if_it_pays(&object, CostModel::usual()),
+        Bounds::TurnedBox => by(Planes::turned_box(&*object)),
+        Bounds::Slabs => by(Planes::slabs(&*object)),
+    };
+    found.map_or(part, Part::Object)
+}
