@@ -88,7 +88,21 @@ impl Default for CostModel {
         Self {
             call: 15.0,
             transform: 20.0,
-            primitive: named(&[("triangle", 3.0)]),
+            primitive: named(&[
+                ("bezier", 700.0),
+                ("block", 25.0),
+                ("cone", 45.0),
+                ("cylinder", 45.0),
+                ("disk", 20.0),
+                ("height-field", 300.0),
+                ("parallelogram", 55.0),
+                ("patch", 45.0),
+                ("polygon", 55.0),
+                ("quadric", 50.0),
+                ("sphere", 18.0),
+                ("torus", 160.0),
+                ("triangle", 3.0),
+            ]),
             step: named(&[
                 ("adaptive-grid", 5.0),
                 ("bvh", 10.0),

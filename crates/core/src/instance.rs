@@ -86,7 +86,7 @@ impl<O: Object> Placed<O, Still> {
 
     /// Out of the space of the object, and into it; none if it is flat.
     pub(crate) fn place(&self) -> Option<[Affine3A; 2]> {
-        Some([self.motion.world_from_object, self.motion.object_from_world?])
+        Some([self.motion.world_from_object(0.0), self.motion.object_from_world(0.0)?])
     }
 
     /// What is placed.

@@ -65,11 +65,21 @@ pub(crate) enum Tree<'a> {
     /// Geometries of the scene.
     Pick(Leaf),
     /// Places of the group; for each of them the shared subtree, which is called so.
-    Place { leaf: Leaf, shared: &'a str, subtrees: Vec<usize> },
+    Place {
+        leaf: Leaf,
+        shared: &'a str,
+        subtrees: Vec<usize>,
+    },
     /// A technique.
-    Nest { order: Box<Order>, children: Vec<Self> },
+    Nest {
+        order: Box<Order>,
+        children: Vec<Self>,
+    },
     /// By kind; the last case is `other`.
-    ByKind { path: String, cases: Vec<(Option<Case>, Self)> },
+    ByKind {
+        path: String,
+        cases: Vec<(Option<Case>, Self)>,
+    },
     /// Built late.
     Lazy(Box<Self>),
     Fence(Bounds, Box<Self>),
