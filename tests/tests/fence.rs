@@ -8,6 +8,7 @@ use nestray_core::fence::{Fenced, Planes};
 use nestray_core::instance::Instance;
 use nestray_core::object::{DynObject, Object};
 use nestray_registry::{Members, find};
+use nestray_shapes::any::AnyShape;
 use nestray_shapes::cylinder::Cylinder;
 use nestray_shapes::disk::Disk;
 use nestray_shapes::shape::Single;
@@ -65,13 +66,13 @@ fn every_family_of_children_is_hit_as_in_the_list() {
 fn askew(numbers: &mut Numbers, count: usize) -> Vec<DynObject> {
     let one = |i: usize| -> DynObject {
         let (at, dir) = (numbers.point() * 10.0, numbers.direction());
-        let single = |shape| Single::new(i as u32, shape);
+        let single = |shape: AnyShape| Single::new(i as u32, shape);
         match i % 3 {
             0 => {
-                let rod = Cylinder { base: at - dir, top: at + dir, radius: 0.02 };
-                Arc::new(single(rod.into()))
+                let (base, top) = (at - dir, at + dir);
+                Arc::new(single(Cylinder { base, top, radius: 0.02 }.into()))
             }
-            1 => Arc::new(single(Disk { center: at, normal: dir, radius: 0.5, inner: 0.0 }.into())),
+            1 => Arc::new(single(Disk { center: at, normal: dir, radius: 0.5 }.into())),
             _ => {
                 let ball = Sphere { center: Vec3A::ZERO, radius: 1.0 };
                 let thin = *numbers.pick(&[0.03, 0.3, 1.0]);
@@ -108,15 +109,14 @@ fn rods_and_plates_are_hit_as_in_the_list() {
 fn turned_boxes_fit_what_lies_askew() {
     let dir = Vec3A::new(1.0, 0.7, -0.5).normalize();
     let rod = Cylinder { base: -dir, top: dir, radius: 0.03 };
-    let rod: DynObject = Arc::new(Single::new(0, rod.into()));
+    let rod: DynObject = Arc::new(Single::new(0, rod));
     let planes = Planes::turned_box(&*rod).expect("it has bounds");
     let share = Fenced::new(Arc::clone(&rod), planes).share();
     assert!((0.01..0.15).contains(&share), "a turned box lets {share} of the rays through");
     let slabs = Planes::slabs(&*rod).expect("it has bounds");
     assert!(slabs.share(&rod.bounds()) < 0.5);
     // A box along the axes is as tight as can be around itself.
-    let ball: DynObject =
-        Arc::new(Single::new(0, Sphere { center: Vec3A::ONE, radius: 2.0 }.into()));
+    let ball: DynObject = Arc::new(Single::new(0, Sphere { center: Vec3A::ONE, radius: 2.0 }));
     let planes = Planes::turned_box(&*ball).expect("it has bounds");
     assert!(planes.share(&ball.bounds()) > 0.8);
 }
@@ -124,7 +124,7 @@ fn turned_boxes_fit_what_lies_askew() {
 #[test]
 fn only_what_is_dear_gets_a_fence_unless_told() {
     let rod = Cylinder { base: Vec3A::ZERO, top: Vec3A::new(1.0, 1.0, 0.9), radius: 0.01 };
-    let rod: DynObject = Arc::new(Single::new(0, rod.into()));
+    let rod: DynObject = Arc::new(Single::new(0, rod));
     let mut model = CostModel::default();
     model.primitive.insert("cylinder".into(), 2.0);
     assert!(Fenced::if_it_pays(&rod, &model).is_none());

@@ -9,6 +9,7 @@ use glam::Vec3A;
 use crate::aabb::Aabb;
 use crate::beam::{Beam, Facing};
 use crate::cost::{Cost, CostModel};
+use crate::counters::{Own, Site};
 use crate::hit::Hit;
 use crate::object::{DynObject, Object};
 use crate::ray::{Ray, Source};
@@ -63,8 +64,12 @@ impl Fenced {
     #[inline]
     fn admits(&self, ray: &Ray, limit: f32, scratch: &mut Scratch) -> bool {
         let admits = self.planes.admit(ray, limit);
-        if admits && let Level::Counting(_) = scratch.level {
-            scratch.counters.tests(ray.kind(), self.object.kind(), 1);
+        if let Level::Counting(_) = scratch.level {
+            let (kind, site) = (ray.kind(), Site::of(self));
+            scratch.counters.visit(kind, site);
+            if admits {
+                scratch.counters.tests(kind, self.object.kind(), site, 1);
+            }
         }
         admits
     }
@@ -185,6 +190,10 @@ impl Object for Fenced {
         let through = ((self.share - inside.hit_rate) / missing).clamp(0.0, 1.0);
         let bytes = size_of::<Self>() as u64 + self.planes.bytes();
         Cost { miss_nanos: inside.miss_nanos * through, ..inside }.plus(self.planes.price(), bytes)
+    }
+
+    fn own(&self) -> Option<Own> {
+        Some(Own { site: Site::of(self), steps: 0.0, tests: self.share })
     }
 
     fn settings(&self) -> String {

@@ -47,6 +47,8 @@ mod tests {
         assert!(!over(r#"{ "technique": "bvh", "more_than": 0 }"#));
         assert!(!over(r#"{ "technique": "bvh", "children": [] }"#));
         assert!(!over(r#"{}"#));
+        assert!(check(r#"{ "version": 1, "root": { "fence": { "around": { "pick": 0 } } } }"#));
+        assert!(!check(r#"{ "version": 1, "root": { "fence": { "by": "hedge" } } }"#));
         assert!(!check(r#"{ "version": 1, "root": { "nets": {} } }"#));
         assert!(!check(r#"{ "version": 1, "root": { "pick": -1 } }"#));
         assert!(!check(r#"{ "version": 1, "root": { "pick": 1 }, "more": 2 }"#));

@@ -9,9 +9,17 @@ use crate::ray::{Ray, RayKind};
 /// What lies between several pairs of parallel planes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planes {
-    pairs: Box<[Pair]>,
+    shape: Shape,
     /// Largest coordinate of what is between, which rounding errors are relative to.
     reach: f32,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    /// Three pairs, across directions that are the rows of a matrix.
+    Turned { axes: Mat3A, low: Vec3A, high: Vec3A },
+    /// Any number of pairs.
+    Slabs(Box<[Pair]>),
 }
 
 /// All points with `direction · point` in `[low, high]`.
@@ -27,8 +35,10 @@ struct Pair {
 /// along the whole way of the ray.
 const SLACK: f32 = 64.0 * f32::EPSILON;
 
-/// Price of testing a pair, in nanoseconds; what is around it costs as much again.
-const PRICE: f64 = 4.5;
+/// Price of testing a turned box, in nanoseconds.
+const TURNED: f64 = 15.0;
+/// Price of testing one of many pairs.
+const PAIR: f64 = 5.0;
 
 /// Directions looked at to turn a box.
 const LOOKS: u32 = 128;
@@ -64,7 +74,11 @@ impl Planes {
         };
         let all = std::iter::once(Mat3A::IDENTITY).chain(around.into_iter().flatten());
         let best = all.min_by(|a, b| area(a).total_cmp(&area(b)))?;
-        Self::along(object, &[best.x_axis, best.y_axis, best.z_axis])
+        let pairs = pairs(object, &[best.x_axis, best.y_axis, best.z_axis])?;
+        let end = |end: fn(&Pair) -> f32| Vec3A::from_array([0, 1, 2].map(|i| end(&pairs[i])));
+        let (low, high) = (end(|pair| pair.low), end(|pair| pair.high));
+        let shape = Shape::Turned { axes: best.transpose(), low, high };
+        Some(Self { shape, reach: object.bounds().reach() })
     }
 
     /// Thirteen slabs around `object`: across the axes, the diagonals of a cube and those of its
@@ -79,39 +93,48 @@ impl Planes {
         }
         // Each comes with its opposite; the middle one is none.
         directions.truncate(13);
-        is_bounded(object).then(|| Self::along(object, &directions))?
-    }
-
-    fn along(object: &dyn Object, directions: &[Vec3A]) -> Option<Self> {
-        let pairs = directions.iter().map(|&direction| {
-            let [low, high] = object.along(direction);
-            Pair { direction, low, high }
-        });
-        let pairs: Box<[Pair]> = pairs.collect();
-        let sound = pairs.iter().all(|pair| pair.low <= pair.high);
-        sound.then(|| Self { pairs, reach: object.bounds().reach() })
+        if !is_bounded(object) {
+            return None;
+        }
+        let shape = Shape::Slabs(pairs(object, &directions)?);
+        Some(Self { shape, reach: object.bounds().reach() })
     }
 
     /// Whether a ray may meet what is between, up to `limit`.
     #[inline]
     #[must_use]
     pub fn admit(&self, ray: &Ray, limit: f32) -> bool {
-        let (origin, dir) = (ray.origin(), ray.dir());
-        let slack = origin.abs().max_element().max(self.reach) * SLACK;
+        let slack = ray.origin().abs().max_element().max(self.reach) * SLACK;
         // Slower than this is all rounding. The slack has room for what the change moves.
-        let least = dir.abs().max_element() * (4.0 * f32::EPSILON);
-        let (mut enter, mut leave) = (ray.t_min(), limit);
-        for pair in &self.pairs {
-            let speed = pair.direction.dot(dir);
-            let speed = if speed.abs() < least { least.copysign(speed) } else { speed };
-            let (inverse, middle) = (1.0 / speed, pair.direction.dot(origin));
-            let a = (pair.low - slack - middle) * inverse;
-            let b = (pair.high + slack - middle) * inverse;
-            // What is NaN narrows nothing.
-            enter = a.min(b).max(enter);
-            leave = a.max(b).min(leave);
+        let least = ray.dir().abs().max_element() * (4.0 * f32::EPSILON);
+        match &self.shape {
+            Shape::Turned { axes, low, high } => {
+                let (speed, middle) = (*axes * ray.dir(), *axes * ray.origin());
+                let slow = Vec3A::splat(least).copysign(speed);
+                let inverse =
+                    Vec3A::ONE / Vec3A::select(speed.abs().cmplt(Vec3A::splat(least)), slow, speed);
+                let (a, b) =
+                    ((*low - slack - middle) * inverse, (*high + slack - middle) * inverse);
+                let enter = a.min(b).max_element().max(ray.t_min());
+                let leave = a.max(b).min_element().min(limit);
+                // What is no number tells nothing.
+                enter <= leave || !(a + b).is_finite()
+            }
+            Shape::Slabs(pairs) => {
+                let (mut enter, mut leave) = (ray.t_min(), limit);
+                for pair in pairs {
+                    let speed = pair.direction.dot(ray.dir());
+                    let speed = if speed.abs() < least { least.copysign(speed) } else { speed };
+                    let (inverse, middle) = (1.0 / speed, pair.direction.dot(ray.origin()));
+                    let a = (pair.low - slack - middle) * inverse;
+                    let b = (pair.high + slack - middle) * inverse;
+                    // What is no number narrows nothing.
+                    enter = a.min(b).max(enter);
+                    leave = a.max(b).min(leave);
+                }
+                enter <= leave
+            }
         }
-        enter <= leave
     }
 
     /// Of uniformly random rays that meet `bounds`, how many come through; by sample.
@@ -137,21 +160,39 @@ impl Planes {
     /// What asking costs, in nanoseconds.
     #[must_use]
     pub fn price(&self) -> f64 {
-        PRICE * (self.pairs.len() as f64 + 1.0)
+        match &self.shape {
+            Shape::Turned { .. } => TURNED,
+            Shape::Slabs(pairs) => PAIR * pairs.len() as f64,
+        }
     }
 
     /// Memory beside itself.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        size_of_val(&*self.pairs) as u64
+        match &self.shape {
+            Shape::Turned { .. } => 0,
+            Shape::Slabs(pairs) => size_of_val(&**pairs) as u64,
+        }
     }
 
     /// In a word, for reports.
     #[must_use]
     pub fn settings(&self) -> String {
-        let kind = if self.pairs.len() == 3 { "a turned box" } else { "13 slabs" };
-        kind.to_owned()
+        match &self.shape {
+            Shape::Turned { .. } => "a turned box".to_owned(),
+            Shape::Slabs(pairs) => format!("{} slabs", pairs.len()),
+        }
     }
+}
+
+/// How far an object reaches along each direction; none if it cannot tell.
+fn pairs(object: &dyn Object, directions: &[Vec3A]) -> Option<Box<[Pair]>> {
+    let pairs = directions.iter().map(|&direction| {
+        let [low, high] = object.along(direction);
+        Pair { direction, low, high }
+    });
+    let pairs: Box<[Pair]> = pairs.collect();
+    pairs.iter().all(|pair| pair.low <= pair.high).then_some(pairs)
 }
 
 fn is_bounded(object: &dyn Object) -> bool {

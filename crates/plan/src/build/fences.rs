@@ -36,3 +36,35 @@ fn fenced(bounds: Bounds, part: Part) -> Part {
     };
     found.map_or(part, Part::Object)
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Map;
+
+    use crate::build::tests::{answers, scene};
+    use crate::plan::{Bounds, Fence, Node};
+    use crate::single::single;
+
+    #[test]
+    fn fences_change_no_answer() {
+        let scene = scene();
+        let plan = |by: Option<Bounds>| {
+            let mut plan = single("bvh", Map::new(), &scene).expect("known");
+            for node in plan.shared.values_mut().chain([&mut plan.root]) {
+                let Node::Nest(nest) = node else { panic!("it is a nest") };
+                for child in &mut nest.children {
+                    let around = child.clone();
+                    *child = match by {
+                        Some(by) => Node::Fence(Box::new(Fence { by, around })),
+                        None => around,
+                    };
+                }
+            }
+            plan
+        };
+        let without = answers(&scene, &plan(None));
+        for by in [Bounds::Cheapest, Bounds::TurnedBox, Bounds::Slabs] {
+            assert_eq!(answers(&scene, &plan(Some(by))), without, "{by:?}");
+        }
+    }
+}
