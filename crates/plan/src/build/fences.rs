@@ -32,7 +32,7 @@ fn fenced(bounds: Bounds, part: Part) -> Part {
     let found = match bounds {
         Bounds::Cheapest => Fenced::if_it_pays(&object, CostModel::usual()),
         Bounds::TurnedBox => by(Planes::turned_box(&*object)),
-        Bounds::Slabs => by(Planes::slabs(&*object)),
+        Bounds::ThirteenSlabs => by(Planes::slabs(&*object)),
     };
     found.map_or(part, Part::Object)
 }
@@ -63,7 +63,7 @@ mod tests {
             plan
         };
         let without = answers(&scene, &plan(None));
-        for by in [Bounds::Cheapest, Bounds::TurnedBox, Bounds::Slabs] {
+        for by in [Bounds::Cheapest, Bounds::TurnedBox, Bounds::ThirteenSlabs] {
             assert_eq!(answers(&scene, &plan(Some(by))), without, "{by:?}");
         }
     }

@@ -29,7 +29,7 @@ pub enum Bounds {
     /// A box turned as the part is.
     TurnedBox,
     /// Thirteen slabs.
-    Slabs,
+    ThirteenSlabs,
 }
 
 impl Bounds {
@@ -39,7 +39,7 @@ impl Bounds {
         match self {
             Self::Cheapest => "cheapest",
             Self::TurnedBox => "turned_box",
-            Self::Slabs => "slabs",
+            Self::ThirteenSlabs => "thirteen_slabs",
         }
     }
 }
