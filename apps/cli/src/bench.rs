@@ -141,15 +141,21 @@ impl Report {
                 String::new()
             };
             let (batch, alone) = (1e3 / one.batch, 1e3 / one.single);
-            let Taken { steps, tests, .. } = one;
+            let Taken { steps, tests, late, bytes: more, .. } = one;
+            let late_too = if *late > 0.05 || *more > 0 {
+                format!("  built late: {late:.2} s, {}", bytes(*more))
+            } else {
+                String::new()
+            };
             let name = &contender.name;
             let _ = writeln!(
                 self.text,
-                "{name:<24} {batch:>10.4} {alone:>10.4} {steps:>10.2} {tests:>10.2} {other:>10}{few}"
+                "{name:<24} {batch:>10.4} {alone:>10.4} {steps:>10.2} {tests:>10.2} {other:>10}{few}{late_too}"
             );
             rows.push(json!({ "plan": name, "rays": one.rays, "batch_mrays_per_second": batch,
                 "single_mrays_per_second": alone, "steps_per_ray": steps,
-                "tests_per_ray": tests, "answers_that_differ": other }));
+                "tests_per_ray": tests, "answers_that_differ": other,
+                "late_seconds": late, "late_bytes": more }));
         }
         let rays = json!({ "kind": set.name, "query": query, "rays": set.rays.len(), "of": rows });
         if let Some(all) = self.json["rays"].as_array_mut() {

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use nestray::core::cost::CostModel;
 use nestray::prelude::{DynObject, Hit, Object as _, Ray, Scratch};
 
 use super::rays::RaySet;
@@ -37,6 +38,10 @@ pub(super) struct Taken {
     pub(super) tests: f64,
     /// Answers unlike those of the fastest.
     pub(super) differ: usize,
+    /// Seconds that the first shots took longer than later ones: what is built while rays fly.
+    pub(super) late: f64,
+    /// Memory that the shots took for good.
+    pub(super) bytes: u64,
 }
 
 /// Lets all worlds shoot `rounds` times, in turns, on this thread.
@@ -45,7 +50,9 @@ pub(super) fn run(
     set: &RaySet,
     rounds: usize,
 ) -> Result<Vec<Taken>, Failure> {
-    let fit: Vec<usize> = worlds.iter().map(|world| fit(world, set)).collect();
+    let before: Vec<u64> = worlds.iter().map(memory).collect();
+    let firsts: Vec<First> = worlds.iter().map(|world| fit(world, set)).collect();
+    let fit: Vec<usize> = firsts.iter().map(|first| first.fit).collect();
     let picked: Vec<Vec<Ray>> = fit.iter().map(|&count| spread(&set.rays, count, BLOCK)).collect();
     let mut times = vec![(Vec::new(), Vec::new()); worlds.len()];
     let mut answers = vec![Answers::Hits(Vec::new()); worlds.len()];
@@ -68,14 +75,17 @@ pub(super) fn run(
     // The fastest has answers for the most rays.
     let fastest = (0..worlds.len()).max_by_key(|&i| picked[i].len()).unwrap_or(0);
     let all = batch(&worlds[fastest], &set.rays, set.any);
-    let taken = worlds.iter().zip(fit.iter().zip(picked)).zip(times).zip(answers);
+    let firsts = firsts.iter().zip(before);
+    let taken = worlds.iter().zip(firsts.zip(picked)).zip(times).zip(answers);
     Ok(taken
-        .map(|(((world, (&asked, rays)), (mut batch, mut single)), answers)| {
+        .map(|(((world, ((first, before), rays)), (mut batch, mut single)), answers)| {
             let (steps, tests) = count(world, &spread(&rays, COUNTED, 1), set.any);
             let nanos = |times: &mut Vec<f64>| median(times) * 1e9 / rays.len().max(1) as f64;
             let (batch, single) = (nanos(&mut batch), nanos(&mut single));
-            let differ = answers.differences(&all.spread(asked));
-            Taken { rays: rays.len(), batch, single, steps, tests, differ }
+            let differ = answers.differences(&all.spread(first.fit));
+            let late = (first.seconds - first.shots as f64 * batch * 1e-9).max(0.0);
+            let bytes = memory(world).saturating_sub(before);
+            Taken { rays: rays.len(), batch, single, steps, tests, differ, late, bytes }
         })
         .collect())
 }
@@ -87,18 +97,41 @@ fn spread<T: Copy>(all: &[T], count: usize, block: usize) -> Vec<T> {
     all.chunks(block).step_by(step).flatten().copied().collect()
 }
 
+/// The first shots of a world.
+struct First {
+    /// So many of the rays are shot in a turn.
+    fit: usize,
+    /// How many were shot to find out, and how long that took.
+    shots: usize,
+    seconds: f64,
+}
+
+/// Memory in use now, of a world in which not too much is shared.
+fn memory(world: &DynObject) -> u64 {
+    // Sums are kept for the usual model, and would be those of before.
+    let model = CostModel::usual().clone();
+    if world.paths() > 1 << 17 { 0 } else { world.cost(&model).bytes }
+}
+
 /// How many of the rays a world shoots in a turn.
-fn fit(world: &DynObject, set: &RaySet) -> usize {
-    let mut count = FIRST.min(set.rays.len());
+fn fit(world: &DynObject, set: &RaySet) -> First {
+    let mut first = First { fit: FIRST.min(set.rays.len()), shots: 0, seconds: 0.0 };
     loop {
+        let count = first.fit;
         let rays = spread(&set.rays, count, BLOCK);
-        let begun = Instant::now();
-        batch(world, &rays, set.any);
-        let spent = begun.elapsed();
-        if count == set.rays.len() || spent * 2 > TURN {
-            return count;
+        let shoot = || {
+            let begun = Instant::now();
+            batch(world, &rays, set.any);
+            begun.elapsed()
+        };
+        let spent = shoot();
+        first.shots += rays.len();
+        first.seconds += spent.as_secs_f64();
+        // What was built late is there the second time.
+        if count == set.rays.len() || (spent * 2 > TURN && shoot() * 2 > TURN) {
+            return first;
         }
-        count = (count * 2).min(set.rays.len());
+        first.fit = (count * 2).min(set.rays.len());
     }
 }
 
