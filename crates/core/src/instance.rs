@@ -155,7 +155,11 @@ impl<O: Object, M: Motion> Object for Placed<O, M> {
 
     fn along(&self, direction: Vec3A) -> [f32; 2] {
         let [least, most] = self.bounds.along(direction);
-        let Some((inside, shift)) = self.motion.direction_inside(direction) else {
+        // An aggregate would ask all its children, for each of its instances anew.
+        let is_aggregate = self.object.own().is_some();
+        let (false, Some((inside, shift))) =
+            (is_aggregate, self.motion.direction_inside(direction))
+        else {
             return [least, most];
         };
         let [low, high] = self.object.along(inside);
