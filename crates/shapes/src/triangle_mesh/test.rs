@@ -65,11 +65,12 @@ impl Shear {
     /// Points, given by their coordinates along [`axis`](Self::axis) 0, 1 and 2.
     #[inline(always)]
     pub(super) fn apply<S: Simd>(&self, simd: S, x: S::F32, y: S::F32, z: S::F32) -> [S::F32; 3] {
-        let from = |a: S::F32, i: usize| simd.sub(a, simd.splat(self.origin[i]));
-        let z = from(z, 2);
-        let shift =
-            |a: S::F32, i: usize| simd.sub(from(a, i), simd.mul(simd.splat(self.slope[i]), z));
-        [shift(x, 0), shift(y, 1), z]
+        let x = simd.sub(x, simd.splat(self.origin[0]));
+        let y = simd.sub(y, simd.splat(self.origin[1]));
+        let z = simd.sub(z, simd.splat(self.origin[2]));
+        let x = simd.sub(x, simd.mul(simd.splat(self.slope[0]), z));
+        let y = simd.sub(y, simd.mul(simd.splat(self.slope[1]), z));
+        [x, y, z]
     }
 }
 
