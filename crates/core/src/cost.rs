@@ -80,7 +80,8 @@ impl CostModel {
 }
 
 impl Default for CostModel {
-    /// Rough prices of a present-day processor: ratios matter, and calibration replaces them.
+    /// Rough prices of a present-day processor, those of shapes rounded from one measurement on a
+    /// busy machine: ratios matter, and calibration replaces them.
     fn default() -> Self {
         let named = |prices: &[(&str, f64)]| {
             prices.iter().map(|&(name, nanos)| (name.to_owned(), nanos)).collect()
