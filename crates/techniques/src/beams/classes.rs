@@ -9,7 +9,7 @@ use nestray_core::ray::{Ray, RayKind};
 
 use super::cells::Cells;
 use super::cut::Forest;
-use super::guide::{Ask, Guide, Search};
+use super::guide::{Ask, Guide, Heading, Search};
 use super::list::Key;
 use super::path::{Cell, Path};
 
@@ -117,33 +117,18 @@ impl Guide for Classes {
         ask: &Ask<'_>,
     ) -> Option<Search> {
         let (start, first) = self.start(ask.ray, ask.limit)?;
-        let dir = ask.ray.dir();
-        let size = dir.abs();
-        let axis = size.max_position();
-        let backward = dir[axis] < 0.0;
-        let inverse = 1.0 / size[axis];
-        let slopes = [1, 2].map(|next| dir[(axis + next) % 3] * inverse);
+        let heading = Heading::of(ask.ray);
         let (mut cube, mut path) = (self.all(), Path::default());
         for bit in 0..cells.deepest() {
             let side = cube.longest(self.distance());
             let at = match side {
                 Side::Origin(axis) => start[axis],
-                Side::Slope(side) => slopes[side],
+                Side::Slope(side) => heading.slopes[side],
             };
             let upper = at >= middle(cube.range(side));
             (cube, path) = (cube.half(side, upper), path.with(bit, usize::from(upper)));
         }
-        let origin = ask.ray.origin()[axis] * if backward { -1.0 } else { 1.0 };
-        Some(Search {
-            path,
-            root: 2 * axis as u32 + u32::from(!backward),
-            range: [0.0, (ask.limit - first) * size[axis]],
-            nearest: !ask.all,
-            to: origin + ask.limit * size[axis] + 2.0 * self.slack,
-            from: origin + 2.0 * self.slack,
-            scale: if ask.any { 0.0 } else { inverse },
-            ..Search::default()
-        })
+        Some(Search { path, root: heading.root(0), ..heading.search(ask, first, self.slack) })
     }
 
     /// All rays of a class, with room for rounding.

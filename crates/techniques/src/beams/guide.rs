@@ -75,3 +75,45 @@ pub(crate) struct Search {
     /// What the parameter grows by along the main axis; 0 if the order does not matter.
     pub(crate) scale: f32,
 }
+
+/// Where a ray goes: the axis along which it runs fastest, and its slopes along the other two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Heading {
+    pub(super) axis: usize,
+    pub(super) backward: bool,
+    pub(super) slopes: [f32; 2],
+    /// How fast it runs along the axis.
+    speed: f32,
+}
+
+impl Heading {
+    #[inline]
+    pub(super) fn of(ray: &Ray) -> Self {
+        let dir = ray.dir();
+        let size = dir.abs();
+        let axis = size.max_position();
+        let inverse = 1.0 / size[axis];
+        let slopes = [1, 2].map(|next| dir[(axis + next) % 3] * inverse);
+        Self { axis, backward: dir[axis] < 0.0, slopes, speed: size[axis] }
+    }
+
+    /// The root, of the six that begin with `first`: down x, up x, down y, …
+    pub(super) fn root(&self, first: usize) -> u32 {
+        (first + 2 * self.axis + usize::from(!self.backward)) as u32
+    }
+
+    /// What to look for in lists sorted by [`Key::Coordinate`], for a ray that begins at parameter
+    /// `begin`, where places on the main axis may be off by `slack`.
+    #[inline]
+    pub(super) fn search(&self, ask: &Ask<'_>, begin: f32, slack: f32) -> Search {
+        let origin = ask.ray.origin()[self.axis] * if self.backward { -1.0 } else { 1.0 };
+        Search {
+            range: [0.0, (ask.limit - begin) * self.speed],
+            nearest: !ask.all,
+            to: origin + ask.limit * self.speed + 2.0 * slack,
+            from: origin + 2.0 * slack,
+            scale: if ask.any { 0.0 } else { 1.0 / self.speed },
+            ..Search::default()
+        }
+    }
+}

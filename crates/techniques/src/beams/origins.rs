@@ -7,7 +7,7 @@ use nestray_core::ray::{Ray, RayKind, Source};
 
 use super::cells::Cells;
 use super::cut::Forest;
-use super::guide::{Ask, Guide, Search};
+use super::guide::{Ask, Guide, Heading, Search};
 use super::list::Key;
 use super::path::{Cell, Path};
 
@@ -51,22 +51,12 @@ impl Guide for Origins {
         ask: &Ask<'_>,
     ) -> Option<Search> {
         let (leaf, _) = self.leaf(forest, family, ask.ray)?;
-        let dir = ask.ray.dir();
-        let size = dir.abs();
-        let axis = size.max_position();
-        let backward = dir[axis] < 0.0;
-        let inverse = 1.0 / size[axis];
-        let [u, v] = [1, 2].map(|next| dir[(axis + next) % 3] * inverse);
-        let origin = ask.ray.origin()[axis] * if backward { -1.0 } else { 1.0 };
+        let heading = Heading::of(ask.ray);
+        let [u, v] = heading.slopes;
         Some(Search {
             path: Path::in_square(u * 0.5 + 0.5, v * 0.5 + 0.5),
-            root: (6 * leaf + 2 * axis + usize::from(!backward)) as u32,
-            range: [0.0, (ask.limit - ask.ray.t_min()) * size[axis]],
-            nearest: !ask.all,
-            to: origin + ask.limit * size[axis] + 2.0 * self.slack,
-            from: origin + 2.0 * self.slack,
-            scale: if ask.any { 0.0 } else { inverse },
-            ..Search::default()
+            root: heading.root(6 * leaf),
+            ..heading.search(ask, ask.ray.t_min(), self.slack)
         })
     }
 
