@@ -103,10 +103,15 @@ fn functions_fit_a_page() {
         for (start, line) in lines.iter().enumerate() {
             let body = line.trim_start();
             let words = ["fn ", "pub fn ", "pub(super) fn ", "pub(crate) fn ", "const fn "];
-            if !words.iter().any(|word| body.starts_with(word)) || line.trim_end().ends_with(';') {
+            if !words.iter().any(|word| body.starts_with(word)) {
                 continue;
             }
             let indent = line.len() - body.len();
+            let head =
+                lines[start..].iter().find(|line| line.ends_with('{') || line.ends_with(';'));
+            if head.is_some_and(|line| line.ends_with(';')) {
+                continue;
+            }
             let close = format!("{}}}", " ".repeat(indent));
             let end = lines[start..].iter().position(|line| *line == close).unwrap_or(0);
             if end + 1 > FUNCTION {
