@@ -20,6 +20,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("io", &["core", "shapes", "scene"]),
     ("plan", &["core", "shapes", "registry", "scene"]),
     ("render", &["core", "shapes", "scene"]),
+    ("peers", &[]),
     ("nestray", &["core", "shapes", "techniques", "registry", "scene", "io", "plan", "render"]),
 ];
 

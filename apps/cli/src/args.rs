@@ -234,16 +234,28 @@ pub(crate) struct InspectArgs {
 #[command(after_help = "Rays: from the eye; from what those hit to the first light, mirrored and \
     scattered; random lines. One thread; medians.\n\nExamples:\n  \
     nestray bench scene.gltf\n  \
-    nestray bench scene.gltf --plans bvh,grid,mine.json --verify")]
+    nestray bench scene.gltf --plans bvh,grid,mine.json --verify\n  \
+    nestray bench bunny.ply --vs embree,obvhs -o bunny.json")]
 pub(crate) struct BenchArgs {
     /// A file, `-` for standard input, or `builtin:NAME`.
     pub(crate) scene: String,
-    /// Techniques, presets, `auto` or plan files; every technique if none is named.
+    /// Techniques, presets, `auto` or plan files; every technique if none is named, or with
+    /// `--vs` only `bvh`.
     #[arg(long, value_name = "PLAN,…", value_delimiter = ',')]
     pub(crate) plans: Vec<String>,
-    /// Most rays of each kind.
-    #[arg(long, default_value_t = 65_536, value_parser = values::rays)]
-    pub(crate) rays: usize,
+    /// Other libraries to shoot the same rays: embree, tinybvh, obvhs, parry3d, bvh. Takes scenes
+    /// of triangles, and rays of its own: primary, bounce, chords, shadow, ao, long.
+    #[arg(long, value_name = "LIBRARY,…", value_delimiter = ',', conflicts_with = "verify")]
+    pub(crate) vs: Vec<String>,
+    /// Most rays of each kind; 65536, or with `--vs` a picture of 800 by 608.
+    #[arg(long, value_parser = values::rays)]
+    pub(crate) rays: Option<usize>,
+    /// Another number gives other random rays, with `--vs`.
+    #[arg(long, default_value_t = 1, requires = "vs")]
+    pub(crate) seed: u64,
+    /// Where to, with `--vs`: .json, or tables; may be given several times.
+    #[arg(short, long, value_name = "FILE", requires = "vs")]
+    pub(crate) output: Vec<PathBuf>,
     /// Turns of each plan.
     #[arg(long, default_value_t = 5, value_parser = values::rounds)]
     pub(crate) rounds: usize,

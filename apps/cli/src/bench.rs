@@ -2,6 +2,8 @@
 
 mod contest;
 pub(crate) mod rays;
+mod sets;
+mod versus;
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -23,6 +25,9 @@ use crate::errors::Failure;
 use crate::progress::Progress;
 use crate::{input, output, stats, stop};
 
+/// Most rays of each kind.
+const RAYS: usize = 65_536;
+
 /// A plan and what was built from it.
 struct Contender {
     name: String,
@@ -32,11 +37,14 @@ struct Contender {
 }
 
 pub(crate) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
+    if !args.vs.is_empty() {
+        return versus::run(args, talk);
+    }
     let progress = Progress::new(talk);
     let scene = input::scene(&args.scene, &LoadOptions::default(), &progress)?;
     let contenders = contenders(args, &scene, progress)?;
     // The first plan may be a slow one.
-    let sets = rays::sets(&scene, &alone("auto", &scene)?, args.rays, 1)?;
+    let sets = rays::sets(&scene, &alone("auto", &scene)?, args.rays.unwrap_or(RAYS), 1)?;
     let mut report = Report::new(&contenders);
     let watching = progress.watch("bench");
     let worlds: Vec<DynObject> = contenders.iter().map(|c| c.world.clone()).collect();

@@ -49,7 +49,13 @@ pub(crate) struct Ran {
 
 /// Runs the program.
 pub(crate) fn nestray(args: &[&str]) -> Ran {
+    nestray_with(args, &[])
+}
+
+/// Runs the program in an environment with these values, too.
+pub(crate) fn nestray_with(args: &[&str], values: &[(&str, &str)]) -> Ran {
     let mut command = Command::cargo_bin("nestray").expect("it was built");
+    command.envs(values.iter().copied());
     let Output { status, stdout, stderr } =
         command.args(args).timeout(std::time::Duration::from_secs(120)).output().expect("it runs");
     Ran {

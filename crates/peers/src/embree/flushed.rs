@@ -1,0 +1,5 @@
+//! Arithmetic as Embree wants it while it is called.
+
+mod kernel;
+
+pub(super) use self::kernel::Flushed;

@@ -1,0 +1,25 @@
+//! Other ray tracing libraries behind one interface, so that rays can be shot at all of them in
+//! turns. Knows nothing of nestray: triangles, rays and answers are plain numbers.
+
+pub mod clock;
+pub mod embree;
+pub mod peer;
+pub mod rays;
+pub mod world;
+
+use peer::{Missing, Peer};
+use world::World;
+
+/// What libraries are asked for by.
+pub const NAMES: &[&str] = &["embree", "tinybvh", "obvhs", "parry3d", "bvh"];
+
+/// A library with triangles in it, once for each way in which it is set that is worth comparing.
+#[must_use]
+pub fn open(name: &str, world: &World) -> Vec<Result<Box<dyn Peer>, Missing>> {
+    match name {
+        "embree" => embree::Settings::ALL
+            .map(|settings| embree::Embree::new(world, settings).map(|it| Box::new(it) as _))
+            .into(),
+        _ => vec![Err(Missing { peer: name.into(), reason: "it is not known".into() })],
+    }
+}
