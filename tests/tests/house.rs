@@ -21,6 +21,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("plan", &["core", "shapes", "registry", "scene"]),
     ("render", &["core", "shapes", "scene"]),
     ("peers", &[]),
+    ("rust-peers", &["peers"]),
     ("nestray", &["core", "shapes", "techniques", "registry", "scene", "io", "plan", "render"]),
 ];
 
@@ -47,7 +48,7 @@ fn sources(folder: &str) -> Vec<(PathBuf, String)> {
 }
 
 fn all_sources() -> Vec<(PathBuf, String)> {
-    ["crates", "apps", "benches", "tests", "xtask"].into_iter().flat_map(sources).collect()
+    ["crates", "apps", "tests", "xtask"].into_iter().flat_map(sources).collect()
 }
 
 /// Asserts that nothing was found wrong, and lists what was.

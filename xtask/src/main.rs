@@ -1,14 +1,21 @@
 //! Chores of this repository: `cargo xtask test` before every change is handed in.
 #![expect(clippy::print_stdout, reason = "a program for people at a terminal")]
 
+mod peers;
+
 use std::process::{Command, ExitCode};
 
-/// A chore: its name, what it does, and the commands it runs, each with its environment.
+/// A chore: its name, what it does, and the commands it runs, each with its environment; or what
+/// is done instead.
 struct Chore {
     name: &'static str,
     about: &'static str,
     steps: &'static [Step],
+    own: Option<Work>,
 }
+
+/// A chore that is no command: takes what follows its name.
+type Work = fn(&[String]) -> Result<(), String>;
 
 struct Step {
     env: &'static [(&'static str, &'static str)],
@@ -69,6 +76,7 @@ const CHORES: &[Chore] = &[
             },
             cargo(&["test", "--workspace", "--release"]),
         ],
+        own: None,
     },
     Chore {
         name: "conformance",
@@ -96,11 +104,19 @@ const CHORES: &[Chore] = &[
                 "--lib",
             ]),
         ],
+        own: None,
     },
     Chore {
         name: "contact-sheet",
         about: "pictures of all shared scenes: SCENES docs/pictures [NAME...]",
         steps: &[cargo(&["run", "--release", "-p", "nestray-sheet", "--"])],
+        own: None,
+    },
+    Chore {
+        name: "peers",
+        about: "installs the libraries that nestray bench --vs compares with",
+        steps: &[],
+        own: Some(peers::install),
     },
 ];
 
@@ -135,6 +151,15 @@ fn main() -> ExitCode {
         }
         return ExitCode::from(2);
     };
+    if let Some(own) = chore.own {
+        return match own(&rest) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => {
+                println!("{name}: {error}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     for step in chore.steps {
         println!("\n> cargo {}", step.args.join(" "));
         if step.nightly && !has_nightly() {

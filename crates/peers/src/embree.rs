@@ -1,8 +1,8 @@
 //! Embree 4, from its shared library.
 
-mod find;
 mod flushed;
 mod kernel;
+mod library;
 #[cfg(test)]
 mod tests;
 
@@ -72,7 +72,7 @@ impl Embree {
     /// If the library is not found, or is none, or fails.
     pub fn new(world: &World, settings: Settings) -> Result<Self, Missing> {
         let missing = |reason: String| Missing { peer: "Embree".into(), reason };
-        let device = Rc::new(find::open(1).map_err(missing)?);
+        let device = Rc::new(library::open(1).map_err(missing)?);
         let quality = match settings.quality {
             Quality::Medium => 1,
             Quality::High => 2,

@@ -3,7 +3,9 @@
 
 pub mod clock;
 pub mod embree;
+mod find;
 pub mod peer;
+mod plugin;
 pub mod rays;
 pub mod world;
 
@@ -20,6 +22,6 @@ pub fn open(name: &str, world: &World) -> Vec<Result<Box<dyn Peer>, Missing>> {
         "embree" => embree::Settings::ALL
             .map(|settings| embree::Embree::new(world, settings).map(|it| Box::new(it) as _))
             .into(),
-        _ => vec![Err(Missing { peer: name.into(), reason: "it is not known".into() })],
+        _ => plugin::open(name, world),
     }
 }

@@ -4,6 +4,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 
 use super::kernel::Device;
+use crate::find;
 
 /// Opens the first Embree 4 there is: `NESTRAY_EMBREE`, then by name wherever the system's loader
 /// looks, then what `cargo xtask peers` has installed.
@@ -14,7 +15,8 @@ pub(super) fn open(threads: usize) -> Result<Device, String> {
             .map_err(|error| format!("NESTRAY_EMBREE={}: {error}", path.display()));
     }
     let named = NAMES.iter().map(PathBuf::from);
-    for path in named.chain(installed()) {
+    let is_right = |file: &str| file.trim_start_matches("lib").starts_with("embree4");
+    for path in named.chain(find::installed(&is_right)) {
         if let Ok(device) = device(&path, threads) {
             return Ok(device);
         }
@@ -37,30 +39,4 @@ fn device(path: &Path, threads: usize) -> Result<Device, String> {
         [4, ..] => Ok(device),
         [major, ..] => Err(format!("is version {major}, not 4")),
     }
-}
-
-/// Libraries in `peers` in the folder of builds, the folder above this program or a `target` above
-/// the working folder.
-fn installed() -> Vec<PathBuf> {
-    let program = env::current_exe().unwrap_or_default();
-    let working = env::current_dir().unwrap_or_default();
-    let above = program.ancestors().map(|folder| folder.join("peers"));
-    let targets = working.ancestors().map(|folder| folder.join("target/peers"));
-    above.chain(targets).flat_map(|folder| libraries(&folder)).collect()
-}
-
-/// All files in a folder and those in it that are called like the library.
-fn libraries(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = folder.read_dir() else { return Vec::new() };
-    let mut found: Vec<PathBuf> = Vec::new();
-    for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        if path.is_dir() && name.starts_with("embree") {
-            found.extend(libraries(&path));
-        } else if name.starts_with("libembree4") || name.starts_with("embree4") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
 }
