@@ -48,7 +48,7 @@ fn sources(folder: &str) -> Vec<(PathBuf, String)> {
 }
 
 fn all_sources() -> Vec<(PathBuf, String)> {
-    ["crates", "apps", "tests", "xtask"].into_iter().flat_map(sources).collect()
+    ["crates", "apps", "benches", "tests", "xtask"].into_iter().flat_map(sources).collect()
 }
 
 /// Asserts that nothing was found wrong, and lists what was.

@@ -1,6 +1,7 @@
 //! Chores of this repository: `cargo xtask test` before every change is handed in.
 #![expect(clippy::print_stdout, reason = "a program for people at a terminal")]
 
+mod bench;
 mod peers;
 
 use std::process::{Command, ExitCode};
@@ -111,6 +112,12 @@ const CHORES: &[Chore] = &[
         about: "pictures of all shared scenes: SCENES docs/pictures [NAME...]",
         steps: &[cargo(&["run", "--release", "-p", "nestray-sheet", "--"])],
         own: None,
+    },
+    Chore {
+        name: "bench",
+        about: "other libraries over ten scenes: writes docs/performance.md",
+        steps: &[],
+        own: Some(bench::bench),
     },
     Chore {
         name: "peers",

@@ -15,6 +15,16 @@ use crate::errors::Failure;
 /// Length of ambient occlusion rays over the diagonal of the scene.
 pub(crate) const AO_LENGTH: f32 = 0.05;
 
+/// How far from a surface rays start that leave it, over the diagonal: ours may start as near as
+/// numbers allow, but others would meet the surface again, and be done sooner.
+const CLEAR: f32 = 2e-5;
+/// How far before the box around everything chords start, over the diagonal: others count what is
+/// met right at the start, or do not.
+const BEFORE: f32 = 0.01;
+
+/// Rounding in a few steps, over the diagonal.
+const ROUNDING: f32 = 1e-6;
+
 /// Rays of one kind.
 pub(crate) struct RaySet {
     pub(crate) name: &'static str,
@@ -22,6 +32,8 @@ pub(crate) struct RaySet {
     /// Whether it only matters that something is hit.
     pub(crate) any: bool,
     pub(crate) rays: Vec<RayRecord>,
+    /// What numbers of the size of the scene are rounded by: distances are no surer.
+    pub(crate) rounding: f32,
 }
 
 /// Names of the sets, and what they are.
@@ -55,20 +67,21 @@ pub(crate) fn sets(
         .map(|(ray, hit)| facing(surfaces.at(ray, hit).surface, ray.dir()))
         .collect();
     let light = camera::light(scene, world.bounds());
-    let reach = AO_LENGTH * world.bounds().size().length();
+    let size = world.bounds().size().length();
+    let start = |at: &Surface| at.position + at.normal * (CLEAR * size);
     let mut random = Random::new(seed ^ 1);
-    let bounce: Vec<RayRecord> =
-        points.iter().map(|at| scattered(at, &mut random, f32::INFINITY)).collect();
-    let ao = points.iter().map(|at| scattered(at, &mut random, reach)).collect();
-    let shadow = points.iter().map(|at| {
-        let from = at.leave(light - at.position);
-        record(from, light - from, 0.999)
-    });
-    let shadow = shadow.collect();
+    let bounce: Vec<RayRecord> = points
+        .iter()
+        .map(|at| record(start(at), lambert(at, &mut random), f32::INFINITY))
+        .collect();
+    let ao = points.iter().map(|at| record(start(at), lambert(at, &mut random), AO_LENGTH * size));
+    let ao = ao.collect();
+    let shadow = points.iter().map(|at| record(start(at), light - start(at), 0.999)).collect();
     let primary = primary.iter().map(|ray| record(ray.origin(), ray.dir(), ray.t_max())).collect();
     let chords = chords(world, count, seed);
     let [a, b, c, d, e, f] = ABOUT.map(|(name, _)| name);
-    let set = |name, kind, any, rays| RaySet { name, kind, any, rays };
+    let rounding = size * ROUNDING;
+    let set = |name, kind, any, rays| RaySet { name, kind, any, rays, rounding };
     let mut sets = vec![
         set(a, Kind::Primary, false, primary),
         set(b, Kind::Bounce, false, bounce.clone()),
@@ -91,11 +104,10 @@ fn record(origin: Vec3A, dir: Vec3A, t_max: f32) -> RayRecord {
     RayRecord { origin: origin.to_array(), t_min: 0.0, dir: dir.to_array(), t_max }
 }
 
-/// A ray that leaves a surface by Lambert's law, of unit length.
-fn scattered(at: &Surface, random: &mut Random, t_max: f32) -> RayRecord {
+/// A direction from a surface by Lambert's law, of unit length.
+fn lambert(at: &Surface, random: &mut Random) -> Vec3A {
     // Towards a point on the sphere that touches the surface.
-    let dir = (at.normal * 1.0001 + random.on_sphere()).normalize();
-    record(at.leave(dir), dir, t_max)
+    (at.normal * 1.0001 + random.on_sphere()).normalize()
 }
 
 /// Lines of which each crosses the box around everything with the same chance as any other: from
@@ -119,7 +131,7 @@ fn chords(world: &DynObject, count: usize, seed: u64) -> Vec<RayRecord> {
         (at[axis], inwards[axis]) =
             if random.part() < 0.5 { (bounds.min[axis], 1.0) } else { (bounds.max[axis], -1.0) };
         let dir = (inwards * 1.0001 + random.on_sphere()).normalize();
-        record(at, dir, f32::INFINITY)
+        record(at - dir * (BEFORE * size.length()), dir, f32::INFINITY)
     };
     (0..count).map(chord).collect()
 }

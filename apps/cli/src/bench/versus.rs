@@ -3,6 +3,7 @@
 mod ours;
 mod report;
 mod rounds;
+mod tessellate;
 mod triangles;
 
 use std::path::Path;
@@ -30,8 +31,11 @@ pub(super) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
     check(args)?;
     let progress = Progress::new(talk);
     let mut scene = input::scene(&args.scene, &LoadOptions::default(), &progress)?;
-    let world = triangles::world(&mut scene)
-        .map_err(|reason| Failure::usage(format!("{}: {reason}", args.scene)))?;
+    let refused = |reason| Failure::usage(format!("{}: {reason}", args.scene));
+    if let Some(done) = tessellate::tessellate(&mut scene).map_err(refused)? {
+        progress.note(&done);
+    }
+    let world = triangles::world(&mut scene).map_err(refused)?;
     let plans: Vec<&str> = match &*args.plans {
         [] => vec!["bvh"],
         plans => plans.iter().map(String::as_str).collect(),

@@ -17,7 +17,7 @@ const TURN: Duration = Duration::from_millis(600);
 const PATIENCE: u32 = 6;
 /// Neighbours that stay together when not all rays are taken: four tiles of a picture.
 const BLOCK: usize = 1024;
-/// Distances that differ more are not the same.
+/// Distances that differ by more of themselves, and by more than rounding, are not the same.
 const NEAR: f32 = 1e-3;
 
 /// A library and the way in which it is asked.
@@ -75,7 +75,8 @@ pub(super) fn run(
         }
     }
     let taken = all.iter().zip(&answers).zip(rates).map(|((rays, answer), rates)| {
-        let (other_hits, other_distances) = answers[0].unlike(answer, common.len(), rays.len());
+        let (other_hits, other_distances) =
+            answers[0].unlike(answer, common.len(), rays.len(), set.rounding);
         let rate = median(&rates);
         Taken { rays: rays.len(), rate, rates, other_hits, other_distances }
     });
@@ -123,7 +124,7 @@ fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 impl Answers {
     /// How many answers of another, who was asked `count` of the `all` rays, are not these: hit or
     /// not, and hit elsewhere.
-    fn unlike(&self, other: &Self, all: usize, count: usize) -> (usize, usize) {
+    fn unlike(&self, other: &Self, all: usize, count: usize, rounding: f32) -> (usize, usize) {
         if !self.blocked.is_empty() {
             let own = spread(&self.blocked[..all], count);
             return (own.iter().zip(&other.blocked).filter(|(a, b)| a != b).count(), 0);
@@ -133,7 +134,7 @@ impl Answers {
         for (a, b) in spread(&self.hits[..all], count).iter().zip(&other.hits) {
             if is_hit(a) != is_hit(b) {
                 hits += 1;
-            } else if is_hit(a) && (a.t - b.t).abs() > NEAR * a.t.abs().max(b.t.abs()) {
+            } else if is_hit(a) && (a.t - b.t).abs() > NEAR * a.t.abs().max(b.t.abs()) + rounding {
                 distances += 1;
             }
         }
@@ -166,7 +167,8 @@ mod tests {
         let hit = |t: f32| HitRecord { t, uv: [0.0; 2], primitive: 3 };
         let own = Answers { hits: vec![hit(1.0), hit(2.0), HitRecord::MISS], blocked: vec![] };
         let other = Answers { hits: vec![hit(1.0001), hit(2.1), hit(1.0)], blocked: vec![] };
-        assert_eq!(own.unlike(&other, 3, 3), (1, 1));
-        assert_eq!(own.unlike(&own, 3, 3), (0, 0));
+        assert_eq!(own.unlike(&other, 3, 3, 0.01), (1, 1));
+        assert_eq!(own.unlike(&other, 3, 3, 0.2), (1, 0));
+        assert_eq!(own.unlike(&own, 3, 3, 0.0), (0, 0));
     }
 }

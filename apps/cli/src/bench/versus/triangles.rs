@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nestray::glam::Affine3A;
-use nestray::prelude::{Content, Geometry, Motion, Scene, Shape as _, Sides};
+use nestray::prelude::{Content, Geometry, Motion, Scene, Sides};
 use nestray_peers::world::{Mesh, Place, World};
 
 /// Most places that are written out.
@@ -64,22 +64,13 @@ fn mesh(scene: &Scene, group: usize) -> Result<Mesh, String> {
     let mut mesh = Mesh::default();
     for &number in &scene.groups[group].geometries {
         let Geometry { name, content, .. } = &scene.geometries[number];
-        let what = match content {
-            Content::Mesh(triangles) => {
-                let (positions, faces) = (triangles.positions(), triangles.faces());
-                let faces = (0..).zip(faces).filter(|&(face, _)| triangles.is_usable(face));
-                let own = Mesh {
-                    positions: positions.to_vec(),
-                    faces: faces.map(|(_, face)| *face).collect(),
-                };
-                mesh.append(&own, &Affine3A::IDENTITY);
-                continue;
-            }
-            Content::Shapes(shapes) if shapes.is_empty() => continue,
-            Content::Shapes(shapes) => shapes[0].kind(),
-            Content::Solids(_) => "solid",
+        let Content::Mesh(triangles) = content else {
+            return Err(format!("other libraries take triangles only: geometry {name:?} has none"));
         };
-        return Err(format!("other libraries take triangles only: geometry {name:?} has a {what}"));
+        let faces = (0..).zip(triangles.faces());
+        let usable = faces.filter(|&(face, _)| triangles.is_usable(face)).map(|(_, face)| *face);
+        let own = Mesh { positions: triangles.positions().to_vec(), faces: usable.collect() };
+        mesh.append(&own, &Affine3A::IDENTITY);
     }
     Ok(mesh)
 }
