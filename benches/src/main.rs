@@ -2,9 +2,10 @@
 //! writes `docs/performance.md`.
 //!
 //! `nestray-benches [--scenes FOLDER] [--results FOLDER] [--docs FOLDER] [--only NAME,…]
-//! [--growth] [-- OPTIONS…]`: the folder of shared scenes, where measurements are put and where the
-//! page; only some scenes; how things grow with the size of a scene, too; what `nestray bench` is
-//! told besides, as `--rounds 9`. Without `--docs` no page is written, only measurements.
+//! [--growth] [--keep] [-- OPTIONS…]`: the folder of shared scenes, where measurements are put and
+//! where the page; only some scenes; how things grow with the size of a scene, too; measurements
+//! that are there already are kept; what `nestray bench` is told besides, as `--rounds 9`. Without
+//! `--docs` no page is written, only measurements.
 
 mod growth;
 mod machine;
@@ -28,6 +29,7 @@ struct Args {
     docs: Option<PathBuf>,
     only: Vec<String>,
     growth: bool,
+    keep: bool,
     /// For `nestray bench`.
     options: Vec<String>,
 }
@@ -49,6 +51,7 @@ fn args() -> Result<Args, String> {
         docs: None,
         only: Vec::new(),
         growth: false,
+        keep: false,
         options: Vec::new(),
     };
     let mut words = env::args().skip(1);
@@ -60,6 +63,7 @@ fn args() -> Result<Args, String> {
             "--docs" => args.docs = Some(next()?.into()),
             "--only" => args.only = next()?.split(',').map(Into::into).collect(),
             "--growth" => args.growth = true,
+            "--keep" => args.keep = true,
             "--" => args.options = words.by_ref().collect(),
             _ => return Err(format!("{word} is no option: see the head of benches/src/main.rs")),
         }
@@ -114,6 +118,9 @@ fn asked(args: &Args, name: &str) -> bool {
 fn measure(args: &Args, scene: &Scene, named: &str) -> Result<Results, String> {
     eprintln!("\n> {}", scene.name);
     let output = args.results.join(format!("{}.json", scene.name));
+    if args.keep && output.is_file() {
+        return Results::read(scene.name, &output);
+    }
     let program = beside().join("release/nestray").with_extension(env::consts::EXE_EXTENSION);
     let mut command = Command::new(program);
     command.args(["bench", named, "--vs", scene.peers, "--quiet", "-o"]).arg(&output);

@@ -35,8 +35,9 @@ const RAYS: &str = "## Rays
 Shapes other than triangles are shot at as triangles by all. Memory is what queries need, nodes and leaves; meshes as they
 were handed over are not counted, for nobody. Embree's trees are built for its flags HIGH, MEDIUM, and HIGH with ROBUST.
 Rays that leave a surface start a fifty-thousandth of the scene's diagonal above it, chords a hundredth before the box: what
-lies right at the start is hit by some libraries and not by others. An answer differs from ours if one hits and the other does
-not, or if distances differ by more than a thousandth and a millionth of the diagonal.
+lies right at the start is hit by some libraries and not by others. Builds are timed on one thread, by its processor time, and
+on all threads by the clock. An answer differs from ours if one hits and the other does not, or if distances differ by more
+than a thousandth and a millionth of the diagonal.
 
 ";
 
@@ -106,9 +107,9 @@ fn rates(one: &Results) -> String {
     if stored < shown {
         let _ = write!(text, ", {stored} stored");
     }
-    text.push_str("\n\n| library, way | build s | Mtri/s | B/tri | ");
+    text.push_str("\n\n| library, way | build s | on all | Mtri/s | B/tri | ");
     let _ = writeln!(text, "{} | differ |", SETS.join(" | "));
-    let _ = writeln!(text, "|---{}|", "|---".repeat(SETS.len() + 4));
+    let _ = writeln!(text, "|---{}|", "|---".repeat(SETS.len() + 5));
     let most = SETS.map(|set| one.rates(set, |_| true).fold(0.0, f64::max));
     for row in one.rows() {
         let cell = |(set, most): (&&str, &f64)| match one.rate(row.peer, row.way, set) {
@@ -118,10 +119,14 @@ fn rates(one: &Results) -> String {
         };
         let cells: Vec<String> = SETS.iter().zip(&most).map(cell).collect();
         let (differ, of) = one.differing(row.peer, row.way);
+        let on_all = match row.build_seconds_on_all {
+            seconds if seconds.is_nan() => "–".into(),
+            seconds => format!("{seconds:.3}"),
+        };
         let percent = 100.0 * differ as f64 / of.max(1) as f64;
         let _ = writeln!(
             text,
-            "| {}, {} | {:.3} | {:.2} | {:.1} | {} | {differ} ({percent:.4} %) |",
+            "| {}, {} | {:.3} | {on_all} | {:.2} | {:.1} | {} | {differ} ({percent:.4} %) |",
             row.peer,
             row.way,
             row.build_seconds,

@@ -16,8 +16,8 @@ pub(crate) struct Line<'a> {
 }
 
 /// Size of a chart, and what its axes leave free: left, above, right, below.
-const SIZE: [f64; 2] = [340.0, 250.0];
-const FREE: [f64; 4] = [46.0, 30.0, 12.0, 38.0];
+const SIZE: [f64; 2] = [340.0, 260.0];
+const FREE: [f64; 4] = [46.0, 56.0, 12.0, 38.0];
 
 /// Charts side by side, so many in a row; all count `across` along x.
 pub(crate) fn draw(charts: &[Chart<'_>], columns: usize, across: &str) -> String {
@@ -128,7 +128,7 @@ fn inside(Chart { title, lines }: &Chart<'_>, across: &str) -> String {
             svg,
             "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"1.6\" fill=\"none\"/>"
         );
-        let key = [x0 + 8.0, y1 + 8.0 + 12.0 * i as f64];
+        let key = [x0 + 140.0 * (i % 2) as f64, 28.0 + 13.0 * (i / 2) as f64];
         let _ = writeln!(
             svg,
             "<path d=\"M{} {}h14\" stroke=\"{color}\" stroke-width=\"3\"/>",

@@ -29,6 +29,8 @@ pub(crate) struct Row<'a> {
     pub(crate) way: &'a str,
     pub(crate) version: &'a str,
     pub(crate) build_seconds: f64,
+    /// By the clock; not a number if it does not do that.
+    pub(crate) build_seconds_on_all: f64,
     pub(crate) bytes: f64,
 }
 
@@ -51,6 +53,7 @@ impl Results {
             way: one["way"].as_str().unwrap_or_default(),
             version: one["version"].as_str().unwrap_or_default(),
             build_seconds: one["build_seconds"].as_f64().unwrap_or(f64::NAN),
+            build_seconds_on_all: one["build_seconds_on_all_threads"].as_f64().unwrap_or(f64::NAN),
             bytes: one["bytes"].as_f64().unwrap_or(f64::NAN),
         })
     }

@@ -7,7 +7,7 @@ mod library;
 mod tests;
 
 use std::rc::Rc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::clock::timed;
 use crate::peer::{Missing, Peer, Way};
@@ -61,18 +61,29 @@ pub struct Embree {
     ways: Vec<Way>,
     version: [isize; 3],
     scene: Scene,
+    /// Of this thread, which does it all.
     build_time: Duration,
+    build_time_on_all: Duration,
     bytes: u64,
 }
 
 impl Embree {
-    /// Puts triangles into Embree, which builds with one thread.
+    /// Puts triangles into Embree, which builds with one thread; and, for comparison, with all.
     ///
     /// # Errors
     /// If the library is not found, or is none, or fails.
     pub fn new(world: &World, settings: Settings) -> Result<Self, Missing> {
         let missing = |reason: String| Missing { peer: "Embree".into(), reason };
-        let device = Rc::new(library::open(1).map_err(missing)?);
+        let begun = Self::build(world, settings, 0).map_err(missing)?;
+        let build_time_on_all = begun.build_time_on_all;
+        drop(begun);
+        let one = Self::build(world, settings, 1).map_err(missing)?;
+        Ok(Self { build_time_on_all, ..one })
+    }
+
+    /// Both times are of this build; all threads if 0.
+    fn build(world: &World, settings: Settings, threads: usize) -> Result<Self, String> {
+        let device = Rc::new(library::open(threads)?);
         let quality = match settings.quality {
             Quality::Medium => 1,
             Quality::High => 2,
@@ -82,7 +93,7 @@ impl Embree {
         let (scene, inner) = (new(), world.meshes.iter().map(|_| new()).collect::<Vec<_>>());
         add(&scene, &world.fixed);
         inner.iter().zip(&world.meshes).for_each(|(scene, mesh)| add(scene, mesh));
-        let before = device.bytes();
+        let (before, begun) = (device.bytes(), Instant::now());
         let ((), build_time) = timed(|| {
             inner.iter().for_each(Scene::commit);
             for place in &world.places {
@@ -92,14 +103,16 @@ impl Embree {
             let _flushed = Flushed::new();
             scene.commit();
         });
+        let build_time_on_all = begun.elapsed();
         match device.error() {
             0 => {}
-            number => return Err(missing(format!("its error number {number}"))),
+            number => return Err(format!("its error number {number}")),
         }
         let bytes = (device.bytes() - before).max(0) as u64;
         let mut ways = vec![Way::Single];
         ways.extend(device.takes_16().then_some(Way::Packets));
-        Ok(Self { settings, ways, version: device.version(), scene, build_time, bytes })
+        let version = device.version();
+        Ok(Self { settings, ways, version, scene, build_time, build_time_on_all, bytes })
     }
 }
 
@@ -120,6 +133,10 @@ impl Peer for Embree {
 
     fn build_time(&self) -> Duration {
         self.build_time
+    }
+
+    fn build_time_on_all(&self) -> Option<Duration> {
+        Some(self.build_time_on_all)
     }
 
     fn bytes(&self) -> u64 {

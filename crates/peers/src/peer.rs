@@ -38,6 +38,11 @@ pub trait Peer {
     /// Processor time of its build, on one thread; triangles are there already.
     fn build_time(&self) -> Duration;
 
+    /// Time of a build on all threads, by the clock on the wall; none if it does not do that.
+    fn build_time_on_all(&self) -> Option<Duration> {
+        None
+    }
+
     /// Memory that queries need: nodes and leaves. What is not known is 0.
     fn bytes(&self) -> u64;
 

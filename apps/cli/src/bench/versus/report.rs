@@ -16,6 +16,7 @@ struct Row {
     version: String,
     way: Way,
     build_seconds: f64,
+    build_seconds_on_all: Option<f64>,
     bytes: u64,
 }
 
@@ -52,6 +53,7 @@ impl Report {
             version: one.peer.version(),
             way: one.way,
             build_seconds: one.peer.build_time().as_secs_f64(),
+            build_seconds_on_all: one.peer.build_time_on_all().map(|time| time.as_secs_f64()),
             bytes: one.peer.bytes(),
         };
         Self {
@@ -78,25 +80,7 @@ impl Report {
         for missing in &self.missing {
             let _ = writeln!(text, "{missing}");
         }
-        let _ = writeln!(
-            text,
-            "\n{:<22} {:>9} {:>8} {:>10} {:>8}  version",
-            "library", "build s", "Mtri/s", "memory", "B/tri"
-        );
-        let mut last = "";
-        for row in self.rows.iter() {
-            if last == row.peer {
-                continue;
-            }
-            last = &row.peer;
-            let Row { peer, build_seconds: build, version, .. } = row;
-            let (rate, per) = (self.triangle_rate(row), self.bytes_each(row));
-            let size = bytes(row.bytes);
-            let _ = writeln!(
-                text,
-                "{peer:<22} {build:>9.3} {rate:>8.2} {size:>10} {per:>8.1}  {version}"
-            );
-        }
+        text.push_str(&self.libraries());
         let rate = |taken: &Taken, _: &Column| format!("{:.2}", taken.rate);
         self.table(&mut text, "millions of rays per second", &rate);
         if self.best(EMBREE).next().is_some() {
@@ -113,6 +97,30 @@ impl Report {
         self.table(&mut text, "answers unlike the first's: hit or miss + where", &differ);
         let shot = |taken: &Taken, _: &Column| taken.rays.to_string();
         self.table(&mut text, "rays of each turn", &shot);
+        text
+    }
+
+    /// Who takes part: builds and memory.
+    fn libraries(&self) -> String {
+        let mut text = format!(
+            "\n{:<22} {:>9} {:>9} {:>8} {:>10} {:>8}  version\n",
+            "library", "build s", "on all", "Mtri/s", "memory", "B/tri"
+        );
+        let mut last = "";
+        for row in &self.rows {
+            if last == row.peer {
+                continue;
+            }
+            last = &row.peer;
+            let Row { peer, build_seconds: build, version, .. } = row;
+            let on_all = row.build_seconds_on_all.map_or("-".into(), |time| format!("{time:.3}"));
+            let (rate, per) = (self.triangle_rate(row), self.bytes_each(row));
+            let size = bytes(row.bytes);
+            let _ = writeln!(
+                text,
+                "{peer:<22} {build:>9.3} {on_all:>9} {rate:>8.2} {size:>10} {per:>8.1}  {version}"
+            );
+        }
         text
     }
 
@@ -150,7 +158,8 @@ impl Report {
     pub(super) fn json(&self) -> String {
         let contender = |row: &Row| {
             json!({ "peer": row.peer, "version": row.version, "way": row.way.name(),
-                "build_seconds": row.build_seconds, "bytes": row.bytes })
+                "build_seconds": row.build_seconds,
+                "build_seconds_on_all_threads": row.build_seconds_on_all, "bytes": row.bytes })
         };
         let taken = |taken: &Taken| {
             json!({ "rays": taken.rays, "mrays_per_second": taken.rate, "turns": taken.rates,
