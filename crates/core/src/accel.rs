@@ -89,20 +89,8 @@ impl<I: Index, C: Children> Accel<I, C> {
 
     fn rebuild(&mut self) {
         self.usual_cost = OnceLock::new();
-        let children = &self.members.children;
-        self.built = children.count();
-        self.bounds =
-            (0..self.built).fold(Aabb::EMPTY, |all, child| match children.bounds(child) {
-                // A NaN corner must not spread.
-                bounds if bounds.is_empty() => all,
-                bounds => all.join(bounds),
-            });
-        // What is empty can never be hit, and is left out.
-        self.unbounded = (0..self.built)
-            .filter(|&child| !children.bounds(child).is_empty())
-            .filter(|&child| !children.bounds(child).is_bounded())
-            .collect();
-        self.members.name();
+        self.built = self.members.children.count();
+        (self.bounds, self.unbounded) = self.members.name();
         (self.index, self.table) = (None, Vec::new());
         if self.members.names.count() == 0 {
             return;

@@ -12,16 +12,28 @@ use crate::ray::Source;
 ///
 /// Nothing is kept here: techniques copy the boxes they need, and those that refine
 /// themselves while rays fly ask again.
-pub trait Family {
+pub trait Family: Sync {
     /// How many there are.
     fn count(&self) -> u32;
 
     /// A box around a child, a few ulps wider than the child.
     fn bounds(&self, child: u32) -> Aabb;
 
+    /// The boxes of the children from `first` on.
+    fn boxes(&self, first: u32, boxes: &mut [Aabb]) {
+        for (child, bounds) in (first..).zip(boxes) {
+            *bounds = self.bounds(child);
+        }
+    }
+
     /// Expected cost of testing a child, in nanoseconds; a nested aggregate weighs
     /// more than a triangle. Positive.
     fn weight(&self, child: u32) -> f32;
+
+    /// The weights of all children.
+    fn weights(&self) -> Vec<f32> {
+        (0..self.count()).map(|child| self.weight(child)).collect()
+    }
 
     /// How many children of one leaf are tested for the price of one: more than 1 where
     /// they are packed.
@@ -61,5 +73,7 @@ pub trait Family {
 /// All boxes of a family, in order.
 #[must_use]
 pub fn boxes(family: &dyn Family) -> Vec<Aabb> {
-    (0..family.count()).map(|child| family.bounds(child)).collect()
+    let mut boxes = vec![Aabb::EMPTY; family.count() as usize];
+    family.boxes(0, &mut boxes);
+    boxes
 }

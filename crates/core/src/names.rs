@@ -9,12 +9,15 @@ pub struct Names {
 }
 
 impl Names {
-    /// The children of `0..all` that `keep` wants.
+    /// The children of `0..all` that `keep` wants; it is asked once for each, in order.
     #[must_use]
-    pub fn keeping(all: u32, keep: impl Fn(u32) -> bool) -> Self {
-        let kept: Vec<u32> = (0..all).filter(|&child| keep(child)).collect();
-        let count = kept.len() as u32;
-        Self { renamed: if count == all { Vec::new() } else { kept }, count }
+    pub fn keeping(all: u32, mut keep: impl FnMut(u32) -> bool) -> Self {
+        let Some(first) = (0..all).find(|&child| !keep(child)) else {
+            return Self { renamed: Vec::new(), count: all };
+        };
+        let renamed: Vec<u32> =
+            (0..first).chain((first + 1..all).filter(|&child| keep(child))).collect();
+        Self { count: renamed.len() as u32, renamed }
     }
 
     /// How many there are.

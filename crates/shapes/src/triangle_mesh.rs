@@ -191,12 +191,9 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn pack(&mut self, leaves: &Leaves, names: &Names) -> Vec<Leaf> {
-        let faces = self.part.faces(&self.triangles);
-        let mut packed = layout::pack::<L>(&self.triangles.positions, &faces, leaves, names);
-        self.part.rename(&mut packed.primitives);
-        // A full set of lanes may be read past the last block.
-        self.blocks = Huge::new(&packed.blocks, 256);
-        self.primitives = Huge::new(&packed.primitives, 32);
+        let primitive = |child: u32| self.part.primitive(names.child(child));
+        let packed = layout::pack::<L>(&self.triangles, &primitive, leaves);
+        (self.blocks, self.primitives) = (packed.blocks, packed.primitives);
         packed.leaves
     }
 

@@ -5,6 +5,8 @@
 
 mod binary;
 mod collapse;
+mod emit;
+mod forests;
 mod gather;
 mod kernel;
 mod parts;
@@ -20,7 +22,8 @@ use nestray_core::trail::{self, Top, Trail};
 use crate::union::Standing;
 
 pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
-pub(crate) use self::collapse::{Forests, MAX_DEPTH};
+pub(crate) use self::collapse::MAX_DEPTH;
+pub(crate) use self::forests::Forests;
 pub(crate) use self::gather::Pencil;
 pub use self::kernel::Cursor;
 
@@ -70,7 +73,8 @@ impl WideTree {
         let of = Contents::new(family);
         let (nodes, is_split) =
             collapse::collapsed(size, leaves, |halves_from| build(&of, halves_from));
-        let reach = of.boxes.iter().fold(0f32, |reach, bounds| reach.max(bounds.reach()));
+        let all = of.boxes.iter().fold(Aabb::EMPTY, |all, bounds| all.join(*bounds));
+        let reach = all.reach();
         let slack = if is_split { SPLIT_SLACK } else { Clip::SLACK };
         Self { nodes: Huge::new(&nodes, 0), reach, slack, is_split }
     }
@@ -103,11 +107,9 @@ impl WideTree {
 
     /// The same tree with a word about each node.
     pub(crate) fn with_notes(mut self, notes: &[u32]) -> Self {
-        let mut nodes = self.nodes.to_vec();
-        for (node, &note) in nodes.iter_mut().zip(notes) {
+        for (node, &note) in self.nodes.iter_mut().zip(notes) {
             node.spare[0] = note;
         }
-        self.nodes = Huge::new(&nodes, 0);
         self
     }
 
@@ -158,7 +160,12 @@ impl Index for WideTree {
         let mut expected = Expected { steps: 1.0, tests: vec![0.0; family.count() as usize] };
         let mut standing = Standing::default();
         let is_once = self.is_split && family.together() == 1;
-        for (bounds, step) in self.nodes().flatten() {
+        let lanes = self.nodes.iter().flat_map(|node| (0..8).map(move |lane| (node, lane)));
+        for (node, lane) in lanes {
+            let (bounds, step) = (node.bounds(lane), Step::from_word(node.words[lane]));
+            if !bounds.is_bounded() {
+                continue;
+            }
             let chance = (area(bounds) / whole).min(1.0);
             if step.is_onward() {
                 expected.steps += chance;
@@ -178,11 +185,9 @@ impl Index for WideTree {
     }
 
     fn rename_leaves(&mut self, leaves: &[Leaf]) {
-        let mut nodes = self.nodes.to_vec();
-        for word in nodes.iter_mut().flat_map(|node| &mut node.words) {
+        for word in self.nodes.iter_mut().flat_map(|node| &mut node.words) {
             *word = Step::from_word(*word).renamed(leaves).word();
         }
-        self.nodes = Huge::new(&nodes, 0);
     }
 
     fn bytes(&self) -> u64 {

@@ -23,13 +23,24 @@ impl<C: Children> Members<C> {
         Self { children, names: Names::default() }
     }
 
-    /// Puts all children into the index that have a box and can be hit.
-    pub(super) fn name(&mut self) {
-        let children = &self.children;
+    /// Puts all children into the index that have a box and can be hit. Returns a box around those
+    /// that can be hit, and which of them no box can hold.
+    pub(super) fn name(&mut self) -> (Aabb, Vec<u32>) {
+        let (children, mut all, mut unbounded) = (&self.children, Aabb::EMPTY, Vec::new());
         self.names = Names::keeping(children.count(), |child| {
             let bounds = children.bounds(child);
-            !bounds.is_empty() && bounds.is_bounded()
+            // A NaN corner must not spread.
+            if bounds.is_empty() {
+                return false;
+            }
+            all = all.join(bounds);
+            let is_bounded = bounds.is_bounded();
+            if !is_bounded {
+                unbounded.push(child);
+            }
+            is_bounded
         });
+        (all, unbounded)
     }
 
     /// For each child the chance that it is hit for what a test costs. Where several stand
@@ -55,6 +66,15 @@ impl<C: Children> Family for Members<C> {
     fn weight(&self, child: u32) -> f32 {
         let cost = self.children.cost(self.names.child(child), CostModel::usual());
         (cost.nanos() as f32).max(f32::MIN_POSITIVE)
+    }
+
+    fn weights(&self) -> Vec<f32> {
+        let count = self.count();
+        // What is packed is all of one kind.
+        if C::PACKED && count > 0 {
+            return vec![self.weight(0); count as usize];
+        }
+        (0..count).map(|child| self.weight(child)).collect()
     }
 
     fn together(&self) -> u32 {

@@ -108,6 +108,16 @@ impl Leaves {
         Leaf(number)
     }
 
+    /// Appends all leaves of another; says how the first is called now.
+    pub fn append(&mut self, other: &Self) -> u32 {
+        let number = self.starts.len() as u32;
+        let begin = self.entries.len();
+        u32::try_from(begin + other.entries.len()).expect("fewer than 2³¹ leaf entries");
+        self.starts.extend(other.starts.iter().map(|start| start + begin as u32));
+        self.entries.extend_from_slice(&other.entries);
+        number
+    }
+
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {

@@ -1,11 +1,15 @@
 //! How leaves are packed.
 
+use std::ops::Range;
+
+use nestray_core::dispatch;
 use nestray_core::huge::Huge;
-use nestray_core::names::Names;
-use nestray_core::simd::Simd;
+use nestray_core::simd::{Level, Simd};
 use nestray_core::technique::{Leaf, Leaves};
+use rayon::prelude::*;
 
 use super::test::Shear;
+use super::triangles::Triangles;
 
 /// Depths of up to 16 shared vertices, and which of them each corner of each triangle is.
 pub(super) type Depths<S> = ([<S as Simd>::F32; 2], [[u8; 8]; 3]);
@@ -28,9 +32,13 @@ pub struct Block<S: Simd> {
 
 /// A way to pack a leaf of triangles into blocks of at most eight.
 pub trait Layout: Clone + Send + Sync + 'static {
+    /// How many lines a leaf can tell apart.
+    const MOST_LINES: usize;
+
     /// Writes one block of as many of `faces` as fit; says how many did, and the name of
     /// the block.
-    fn write(
+    fn write<S: Simd>(
+        simd: S,
         vertices: &[[f32; 3]],
         faces: &[[u32; 3]],
         first: u32,
@@ -59,37 +67,101 @@ pub trait Layout: Clone + Send + Sync + 'static {
 pub(super) const LAST: u32 = u32::MAX;
 
 pub(super) struct Packed {
-    pub(super) blocks: Vec<[u32; 8]>,
-    pub(super) primitives: Vec<u32>,
+    pub(super) blocks: Huge<[u32; 8]>,
+    pub(super) primitives: Huge<u32>,
     pub(super) leaves: Vec<Leaf>,
 }
 
-/// Packs all leaves, each as a chain of blocks, primitives ascending.
+/// Some leaves in a row, as if they were the first.
+#[derive(Default)]
+struct Piece {
+    blocks: Vec<[u32; 8]>,
+    primitives: Vec<u32>,
+    leaves: Vec<Leaf>,
+}
+
+/// Packs all leaves, each as a chain of blocks, primitives ascending, by all cores.
 pub(super) fn pack<L: Layout>(
-    vertices: &[[f32; 3]],
-    faces: &[[u32; 3]],
+    triangles: &Triangles,
+    primitive: &(impl Fn(u32) -> u32 + Sync),
     leaves: &Leaves,
-    names: &Names,
 ) -> Packed {
-    let mut packed = Packed { blocks: Vec::new(), primitives: Vec::new(), leaves: Vec::new() };
-    for number in 0..leaves.count() {
-        let mut children: Vec<u32> =
-            leaves.of(number).iter().map(|&child| names.child(child)).collect();
-        children.sort_unstable();
-        let triangles: Vec<[u32; 3]> = children.iter().map(|&c| faces[c as usize]).collect();
-        let mut done = 0;
-        let mut previous = None;
-        while done < triangles.len() {
-            let first = packed.primitives.len() as u32;
-            let (count, leaf) = L::write(vertices, &triangles[done..], first, &mut packed.blocks);
-            packed.primitives.extend_from_slice(&children[done..done + count]);
-            match previous {
-                None => packed.leaves.push(leaf),
-                Some(before) => packed.blocks[L::place(before)][7] = leaf.0,
+    /// Leaves that one thread packs.
+    const CHUNK: usize = 512;
+    let mut pieces: Vec<Piece> = (0..leaves.count().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(leaves.count());
+            dispatch!(Level::best(), simd =>
+                Piece::new::<_, L>(simd, triangles, primitive, leaves, numbers))
+        })
+        .collect();
+    let (mut begin, mut lines, mut first) = (Vec::new(), 0, 0);
+    for piece in &pieces {
+        begin.push((lines as u32, first as u32));
+        (lines, first) = (lines + piece.blocks.len(), first + piece.primitives.len());
+    }
+    assert!(lines <= L::MOST_LINES, "no more packed triangles per mesh than a leaf can name");
+    let places = pieces.par_iter_mut().zip(begin);
+    places.for_each(|(piece, (line, first))| piece.place::<L>(line, first));
+    let blocks: Vec<&[[u32; 8]]> = pieces.iter().map(|piece| &piece.blocks[..]).collect();
+    let primitives: Vec<&[u32]> = pieces.iter().map(|piece| &piece.primitives[..]).collect();
+    Packed {
+        // A full set of lanes may be read past the last block.
+        blocks: Huge::joined(&blocks, 256),
+        primitives: Huge::joined(&primitives, 32),
+        leaves: pieces.iter().flat_map(|piece| piece.leaves.iter().copied()).collect(),
+    }
+}
+
+impl Piece {
+    #[inline(always)]
+    fn new<S: Simd, L: Layout>(
+        simd: S,
+        triangles: &Triangles,
+        primitive: &impl Fn(u32) -> u32,
+        leaves: &Leaves,
+        numbers: Range<usize>,
+    ) -> Self {
+        let mut piece = Self::default();
+        for number in numbers.clone() {
+            let first = piece.primitives.len();
+            piece.primitives.extend(leaves.of(number).iter().map(|&child| primitive(child)));
+            piece.primitives[first..].sort_unstable();
+        }
+        // All at once: they come from anywhere, and none waits for the one before.
+        let faces: Vec<[u32; 3]> =
+            piece.primitives.iter().map(|&i| triangles.faces[i as usize]).collect();
+        let mut first = 0;
+        for number in numbers {
+            let end = first + leaves.of(number).len();
+            let mut previous = None;
+            while first < end {
+                let (vertices, rest) = (&triangles.positions, &faces[first..end]);
+                let (count, leaf) = L::write(simd, vertices, rest, first as u32, &mut piece.blocks);
+                match previous {
+                    None => piece.leaves.push(leaf),
+                    Some(before) => piece.blocks[L::place(before)][7] = leaf.0,
+                }
+                (previous, first) = (Some(leaf), first + count);
             }
-            previous = Some(leaf);
-            done += count;
+        }
+        piece
+    }
+
+    /// Moves it to where it begins in the whole.
+    fn place<L: Layout>(&mut self, line: u32, first: u32) {
+        for leaf in &mut self.leaves {
+            let mut next = leaf.0;
+            while next != LAST {
+                let header = &mut self.blocks[L::place(Leaf(next))];
+                header[6] += first;
+                next = header[7];
+                if next != LAST {
+                    header[7] += line;
+                }
+            }
+            leaf.0 += line;
         }
     }
-    packed
 }

@@ -1,6 +1,5 @@
-//! Which of its triangles a mesh has for children, and which vertices those share.
+//! Which of its triangles a mesh has for children.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use nestray_core::hit::InstancePath;
@@ -43,26 +42,6 @@ impl Part {
         }
     }
 
-    /// From children to what they are called.
-    pub(super) fn rename(&self, children: &mut [u32]) {
-        if let Some(chosen) = &self.chosen {
-            for child in children {
-                *child = chosen[*child as usize];
-            }
-        }
-    }
-
-    /// The corners of the children, vertices in the same place made one.
-    pub(super) fn faces(&self, of: &Triangles) -> Vec<[u32; 3]> {
-        let Some(chosen) = &self.chosen else { return merged(of) };
-        let faces = chosen.iter().map(|&primitive| of.faces[primitive as usize]);
-        let mut seen = HashMap::with_capacity(chosen.len());
-        let mut same = |vertex: u32| {
-            *seen.entry(of.positions[vertex as usize].map(f32::to_bits)).or_insert(vertex)
-        };
-        faces.map(|face| face.map(&mut same)).collect()
-    }
-
     /// Memory in use.
     pub(super) fn bytes(&self) -> usize {
         self.chosen.as_ref().map_or(0, |chosen| size_of_val::<[u32]>(chosen))
@@ -100,14 +79,4 @@ impl<L: Layout> Mesh<L> {
         let is_mine = geometry == self.geometry && path == InstancePath::NONE;
         if is_mine { self.part.child(primitive) } else { None }
     }
-}
-
-/// All faces with vertices in the same place made one.
-fn merged(triangles: &Triangles) -> Vec<[u32; 3]> {
-    let mut seen = HashMap::with_capacity(triangles.positions.len());
-    let same: Vec<u32> = (0..)
-        .zip(&triangles.positions)
-        .map(|(i, v)| *seen.entry(v.map(f32::to_bits)).or_insert(i))
-        .collect();
-    triangles.faces.iter().map(|face| face.map(|v| same[v as usize])).collect()
 }

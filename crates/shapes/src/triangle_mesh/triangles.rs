@@ -198,12 +198,14 @@ impl Triangles {
     /// The box around a triangle; empty if it cannot be hit.
     #[must_use]
     pub fn bounds(&self, triangle: u32) -> Aabb {
-        if !self.is_usable(triangle) {
+        let [a, b, c] = self.corners(triangle).map(Vec3A::from_array);
+        let largest = a.abs().max(b.abs()).max(c.abs());
+        // NaN would not survive a maximum, but a sum.
+        let is_usable = largest.cmple(Vec3A::splat(Ray::FARTHEST)).all() && !(a + b + c).is_nan();
+        if !is_usable {
             return Aabb::EMPTY;
         }
-        self.corners(triangle)
-            .iter()
-            .fold(Aabb::EMPTY, |all, &corner| all.with(Vec3A::from_array(corner)))
+        Aabb { min: a.min(b).min(c), max: a.max(b).max(c) }
     }
 
     /// How far a triangle reaches along `direction`.

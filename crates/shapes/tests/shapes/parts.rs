@@ -162,3 +162,26 @@ fn the_memory_of_a_part_is_that_of_its_triangles() {
     let each = all.packed_bytes() as f64 / 80_000.0;
     assert!((small.packed_bytes() as f64) < 3.0 * 100.0 * each, "{}", small.packed_bytes());
 }
+
+#[test]
+fn leaves_are_packed_alike_by_any_number_of_threads() {
+    fn check<L>(whole: &Mesh<L>, count: usize)
+    where
+        Mesh<L>: Children + Clone,
+    {
+        let pack = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads can be had").install(|| packed(whole.clone()).1)
+        };
+        let one = pack(1);
+        assert_eq!(one.len(), count.div_ceil(11));
+        assert!([2, 7].into_iter().all(|threads| pack(threads) == one));
+    }
+    let sheet = sheet(100);
+    let mesh = TriangleMesh::new(4, Arc::clone(&sheet));
+    check(&mesh, 20_000);
+    check(&mesh.packed_otherwise::<Soup>(), 20_000);
+    let (mesh, leaves) = packed(mesh);
+    let all: Vec<u32> = leaves.iter().flat_map(|&leaf| mesh.primitives_in(leaf)).collect();
+    assert_eq!(all, (0..20_000).collect::<Vec<_>>());
+}

@@ -33,7 +33,7 @@ impl Children {
     pub(crate) fn new(family: &dyn Family) -> Self {
         let boxes = boxes(family);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |all, b| all.join(*b));
-        let weights = (0..family.count()).map(|child| family.weight(child)).collect();
+        let weights = family.weights();
         Self { boxes, weights, together: family.together(), bounds }
     }
 

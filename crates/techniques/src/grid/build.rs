@@ -17,7 +17,7 @@ pub(super) fn build(params: &Grid, family: &dyn Family, leaves: &mut Leaves) -> 
     let boxes = boxes(family);
     let bounds = boxes.iter().fold(Aabb::EMPTY, |all, b| all.join(*b));
     let bounds = thickened(bounds);
-    let weights: Vec<f32> = (0..family.count()).map(|child| family.weight(child)).collect();
+    let weights = family.weights();
     let cells = resolution(params, bounds, &boxes, &weights, family.together());
     let count = Vec3A::from_array(cells.map(|n| n as f32));
     let pad = (bounds.size() / count * PAD).max(Vec3A::splat(2.0 * Clip::SLACK * bounds.reach()));

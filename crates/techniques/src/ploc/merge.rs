@@ -116,13 +116,15 @@ fn spread(cell: f64) -> u64 {
 #[cfg(test)]
 mod tests {
     use glam::Vec3A;
+    use nestray_core::huge::Huge;
 
     use super::*;
 
     fn contents(centers: impl Iterator<Item = Vec3A>) -> Contents {
         let boxes: Vec<Aabb> =
             centers.map(|center| Aabb { min: center, max: center + 1e-3 }).collect();
-        Contents { weights: vec![1.0; boxes.len()], boxes, together: 1 }
+        let weights = vec![1.0; boxes.len()];
+        Contents { weights, boxes: Huge::new(&boxes, 0), together: 1 }
     }
 
     fn check(of: &Contents) -> Vec<[u32; 2]> {

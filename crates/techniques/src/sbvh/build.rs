@@ -1,14 +1,19 @@
 //! Building a binary tree from the top, children cut where that pays.
 
 use nestray_core::aabb::Aabb;
+use nestray_core::dispatch;
 use nestray_core::family::Family;
+use nestray_core::simd::{Level, Simd};
 
 use super::Sbvh;
 use super::cut::Cut;
 use super::early::cut_large;
 use super::plane::best_cut;
-use crate::bvh::split::{best_plane, partition};
-use crate::wide_tree::{Binary, Contents, Pair, in_halves};
+use crate::bvh::build::parts;
+use crate::bvh::few;
+use crate::bvh::part::{Around, Part, in_halves};
+use crate::bvh::plane::{Cutting, SHARED, partition};
+use crate::wide_tree::{Binary, Contents, Pair};
 
 /// Splits all children again and again, from `halves_from` levels down in halves and uncut.
 pub(super) fn split<'a>(
@@ -19,68 +24,36 @@ pub(super) fn split<'a>(
 ) -> Binary<'a> {
     let count = of.boxes.len();
     let bounds = of.boxes.iter().fold(Aabb::EMPTY, |all, b| all.join(*b));
-    let mut growing = Growing {
-        params,
-        parts: Parts {
-            family,
-            of: Contents {
-                boxes: of.boxes.clone(),
-                weights: of.weights.clone(),
-                together: of.together,
-            },
-            children: (0..count as u32).collect(),
-            reach: bounds.reach(),
-        },
-        halves_from,
-        least_overlap: params.overlap * bounds.surface_area(),
-        order: Vec::with_capacity(count),
-        pairs: Vec::with_capacity(2 * count),
-    };
+    let knife = Knife { family, reach: bounds.reach() };
     let room = f64::from(params.copies) * count as f64;
     let early = (1.0 + f64::from(params.early) * (f64::from(params.copies) - 1.0)) * count as f64;
-    cut_large(&mut growing.parts, &bounds, early as usize);
-    let parts = growing.parts.of.boxes.len() as u32;
-    growing.grow((0..parts).collect(), 0, room);
-    Binary { of, order: growing.order, pairs: growing.pairs }
+    let mut parts = parts(of).to_vec();
+    cut_large(&knife, &mut parts, &bounds, of.together as usize, early as usize);
+    let growing = Growing {
+        knife,
+        together: of.together as usize,
+        few: few(params.max_leaf, of.together),
+        cutting: Cutting { bins: params.bins, is_even: of.is_even() },
+        halves_from,
+        least_overlap: params.overlap * bounds.surface_area(),
+    };
+    let mut grown = Grown::default();
+    growing.all(parts, 0, room, &mut grown);
+    Binary { of, order: grown.order, pairs: grown.pairs }
 }
 
-/// The parts that children were cut into; at first, each whole.
-pub(super) struct Parts<'a> {
-    pub(super) family: &'a dyn Family,
-    /// A box around each part, and what testing it costs: that of the whole child.
-    pub(super) of: Contents,
-    /// Which child each is of.
-    pub(super) children: Vec<u32>,
+/// What children are cut with.
+pub(super) struct Knife<'a> {
+    family: &'a dyn Family,
     /// The largest coordinate of all boxes.
     pub(super) reach: f32,
 }
 
-impl Parts<'_> {
-    /// A box around some parts.
-    pub(super) fn around(&self, parts: &[u32]) -> Aabb {
-        parts.iter().fold(Aabb::EMPTY, |all, &part| all.join(self.of.boxes[part as usize]))
-    }
-
-    /// Cuts a part in two; returns the second.
-    pub(super) fn divide(&mut self, part: u32, pieces: [Aabb; 2]) -> u32 {
-        let other = self.of.boxes.len() as u32;
-        self.of.boxes[part as usize] = pieces[0];
-        self.of.boxes.push(pieces[1]);
-        self.of.weights.push(self.of.weights[part as usize]);
-        self.children.push(self.children[part as usize]);
-        other
-    }
-
-    /// What testing some parts costs.
-    pub(super) fn weight(&self, parts: &[u32]) -> f32 {
-        parts.iter().map(|&part| self.of.weights[part as usize]).sum()
-    }
-
+impl Knife<'_> {
     /// A box around what of a part is in a cell inside its box; empty if nothing is. A hit is
     /// never outside the joint boxes of what a part is cut into, up to rounding.
-    pub(super) fn inside(&self, part: u32, cell: &Aabb) -> Aabb {
-        let bounds = self.of.boxes[part as usize];
-        let inside = self.family.clipped(self.children[part as usize], cell).meet(bounds);
+    pub(super) fn inside(&self, part: &Part, cell: &Aabb) -> Aabb {
+        let inside = self.family.clipped(part.number(), cell).meet(part.around().bounds());
         if inside.is_empty() { Aabb::EMPTY } else { inside }
     }
 }
@@ -89,82 +62,157 @@ impl Parts<'_> {
 const PART: f32 = 0.1;
 
 struct Growing<'a> {
-    params: &'a Sbvh,
-    parts: Parts<'a>,
+    knife: Knife<'a>,
+    together: usize,
+    /// So many are not split.
+    few: usize,
+    cutting: Cutting,
     halves_from: usize,
     /// Overlaps with less surface are left alone.
     least_overlap: f32,
+}
+
+/// A tree so far.
+#[derive(Default)]
+struct Grown {
     order: Vec<u32>,
     pairs: Vec<Pair>,
 }
 
+impl Grown {
+    fn append(&mut self, other: Self) -> u32 {
+        let (me, first) = (self.pairs.len() as u32, self.order.len() as u32);
+        let moved = |pair: Pair| Pair { first: pair.first + first, ..pair.moved(me) };
+        self.pairs.extend(other.pairs.into_iter().map(moved));
+        self.order.extend(other.order);
+        me
+    }
+}
+
+/// What is yet to be split: the last parts of those that wait.
+struct Open {
+    count: usize,
+    depth: usize,
+    /// How many parts it may be cut into.
+    room: f64,
+    /// The node it is the left side of; a right side comes right after what it is in.
+    above: Option<u32>,
+}
+
+impl Open {
+    /// The two sides of it, that have so many parts.
+    fn sides(&self, counts: [usize; 2], above: u32) -> [Self; 2] {
+        let share = self.room / (counts[0] + counts[1]) as f64;
+        let depth = self.depth + 1;
+        let side = |count: usize, above| Self { count, depth, room: count as f64 * share, above };
+        [side(counts[0], Some(above)), side(counts[1], None)]
+    }
+}
+
 impl Growing<'_> {
-    /// Appends the subtree of `inside`, cut into no more than `room` parts; says where it begins.
-    fn grow(&mut self, inside: Vec<u32>, depth: usize, room: f64) -> u32 {
-        let me = self.pairs.len();
-        let (bounds, first) = (self.parts.around(&inside), self.order.len() as u32);
-        self.pairs.push(Pair { bounds, first, count: 1, left: 0, right: 0 });
-        if let [part] = inside[..] {
-            self.order.push(self.parts.children[part as usize]);
-            return me as u32;
+    /// Appends the subtree of `inside`, cut into no more than `room` parts, by all cores. It is
+    /// the same for any number of them.
+    fn all(&self, mut inside: Vec<Part>, depth: usize, room: f64, out: &mut Grown) {
+        let open = Open { count: inside.len(), depth, room, above: None };
+        if inside.len() <= SHARED {
+            dispatch!(Level::best(), simd => self.below(simd, inside, open, out));
+            return;
         }
-        let [left, right] = self.halves(inside, &bounds, depth, room);
-        let share = room / (left.len() + right.len()) as f64;
-        let rooms = [left.len() as f64 * share, right.len() as f64 * share];
-        self.pairs[me].left = self.grow(left, depth + 1, rooms[0]);
-        self.pairs[me].right = self.grow(right, depth + 1, rooms[1]);
-        self.pairs[me].count = self.order.len() as u32 - first;
-        me as u32
+        let me = out.pairs.len() as u32;
+        let first = out.order.len() as u32;
+        let bounds = Around::all(&inside).bounds();
+        out.pairs.push(Pair { bounds, first, count: 0, left: 0, right: me + 1 });
+        let counts = dispatch!(Level::best(), simd => self.halves(simd, &mut inside, &open));
+        let right = inside.split_off(counts[0]);
+        let [a, b] = open.sides(counts, me);
+        let mut apart = Grown::default();
+        rayon::join(
+            || self.all(right, depth + 1, b.room, out),
+            || self.all(inside, depth + 1, a.room, &mut apart),
+        );
+        let left = out.append(apart);
+        out.pairs[me as usize].left = left;
+        out.pairs[me as usize].count = out.order.len() as u32 - first;
     }
 
-    /// Puts two parts or more in two sets.
-    fn halves(
-        &mut self,
-        mut inside: Vec<u32>,
-        bounds: &Aabb,
-        depth: usize,
-        room: f64,
-    ) -> [Vec<u32>; 2] {
-        let by_area = depth < self.halves_from;
-        let of = &self.parts.of;
-        let plane = if by_area { best_plane(self.params.bins, of, &inside) } else { None };
-        let middle = match &plane {
-            Some(plane) => partition(&mut inside, |part| plane.is_left(of.center(part))),
-            None => in_halves(of, &mut inside),
-        };
-        if by_area && room >= inside.len() as f64 + 1.0 && inside.len() > of.together as usize {
-            let sides = [&inside[..middle], &inside[middle..]];
-            let boxes = sides.map(|side| self.parts.around(side));
-            let cost = match &plane {
-                Some(plane) => plane.cost,
-                None => {
-                    let cost = |i: usize| boxes[i].surface_area() * self.parts.weight(sides[i]);
-                    cost(0) + cost(1)
-                }
-            };
-            let least = self.least_overlap.max(PART * bounds.surface_area());
-            if boxes[0].meet(boxes[1]).surface_area() > least
-                && let Some(halves) = self.cut(&inside, bounds, cost, room)
-            {
-                return halves;
+    /// The same by one core, without calling itself: vector instructions would be lost.
+    #[inline(always)]
+    fn below<S: Simd>(&self, simd: S, mut parts: Vec<Part>, whole: Open, out: &mut Grown) {
+        let begin = out.pairs.len();
+        let mut waiting = vec![whole];
+        while let Some(open) = waiting.pop() {
+            let me = out.pairs.len() as u32;
+            if let Some(above) = open.above {
+                out.pairs[above as usize].left = me;
+            }
+            let from = parts.len() - open.count;
+            let (bounds, first) = (Around::all(&parts[from..]).bounds(), out.order.len() as u32);
+            let is_leaf = open.count <= self.few;
+            let right = if is_leaf { 0 } else { me + 1 };
+            out.pairs.push(Pair { bounds, first, count: open.count as u32, left: 0, right });
+            if is_leaf {
+                out.order.extend(parts.drain(from..).map(|part| part.number()));
+                continue;
+            }
+            let mut inside = parts.split_off(from);
+            let counts = self.halves(simd, &mut inside, &open);
+            parts.append(&mut inside);
+            waiting.extend(open.sides(counts, me));
+        }
+        for me in (begin..out.pairs.len()).rev() {
+            let Pair { left, right, .. } = out.pairs[me];
+            if left != 0 {
+                let count = |side: u32| out.pairs[side as usize].count;
+                out.pairs[me].count = count(left) + count(right);
             }
         }
-        let right = inside.split_off(middle);
-        [inside, right]
     }
 
-    /// Cuts parts by a plane, if that costs less than `cost` and there is room.
+    /// Puts two parts or more in two sets, one behind the other; returns how large they are.
+    #[inline(always)]
+    fn halves<S: Simd>(&self, simd: S, inside: &mut Vec<Part>, open: &Open) -> [usize; 2] {
+        let by_area = open.depth < self.halves_from;
+        let plane = if by_area { self.cutting.best_plane(simd, inside) } else { None };
+        let middle = match &plane {
+            Some(plane) => partition(inside, plane),
+            None => in_halves(inside),
+        };
+        if by_area && open.room >= inside.len() as f64 + 1.0 && inside.len() > self.together {
+            let sides = match &plane {
+                Some(plane) => plane.sides,
+                None => [Around::all(&inside[..middle]), Around::all(&inside[middle..])],
+            };
+            if let Some(halves) = self.cut(inside, middle, sides, open.room) {
+                let counts = halves.each_ref().map(Vec::len);
+                inside.clear();
+                inside.extend(halves.into_iter().flatten());
+                return counts;
+            }
+        }
+        [middle, inside.len() - middle]
+    }
+
+    /// Cuts parts by a plane, if that costs less than to leave them on two sides and there is room.
     fn cut(
-        &mut self,
-        inside: &[u32],
-        bounds: &Aabb,
-        cost: f32,
+        &self,
+        inside: &[Part],
+        middle: usize,
+        sides: [Around; 2],
         room: f64,
-    ) -> Option<[Vec<u32>; 2]> {
-        let plane = best_cut(&self.parts, inside, bounds, cost)?;
-        let cut = Cut::new(&self.parts, inside, plane);
+    ) -> Option<[Vec<Part>; 2]> {
+        let [a, b] = sides.map(|side| side.bounds());
+        let bounds = a.join(b);
+        let least = self.least_overlap.max(PART * bounds.surface_area());
+        if a.meet(b).surface_area() <= least {
+            return None;
+        }
+        let weight = |parts: &[Part]| parts.iter().map(Part::weight).sum::<f32>();
+        let cost = a.surface_area() * weight(&inside[..middle])
+            + b.surface_area() * weight(&inside[middle..]);
+        let plane = best_cut(&self.knife, inside, &bounds, cost)?;
+        let cut = Cut::new(&self.knife, inside, plane);
         let makes_progress = !cut.counts().contains(&0);
         let fits = cut.counts().iter().sum::<usize>() as f64 <= room;
-        (makes_progress && fits && cut.cost() < cost).then(|| cut.made(&mut self.parts))
+        (makes_progress && fits && cut.cost() < cost).then(|| cut.made())
     }
 }

@@ -2,7 +2,8 @@
 
 use nestray_core::aabb::Aabb;
 
-use super::build::Parts;
+use super::build::Knife;
+use crate::bvh::part::Part;
 use crate::cells::Plane;
 
 /// Parts on two sides of a plane, not yet cut.
@@ -10,13 +11,13 @@ pub(super) struct Cut {
     left: Side,
     right: Side,
     /// Parts on both sides, with the boxes of the two pieces.
-    through: Vec<(u32, [Aabb; 2])>,
+    through: Vec<(Part, [Aabb; 2])>,
 }
 
 /// One side.
 struct Side {
     /// Whole parts.
-    whole: Vec<u32>,
+    whole: Vec<Part>,
     bounds: Aabb,
     /// Of parts and pieces.
     weight: f32,
@@ -34,25 +35,25 @@ impl Side {
 }
 
 /// Boxes around what of a part is on each side of a plane; none if it is on one side only.
-pub(super) fn halved(parts: &Parts<'_>, part: u32, axis: usize, at: f32) -> Option<[Aabb; 2]> {
-    let bounds = parts.of.boxes[part as usize];
+pub(super) fn halved(knife: &Knife<'_>, part: &Part, axis: usize, at: f32) -> Option<[Aabb; 2]> {
+    let bounds = part.around().bounds();
     if bounds.max[axis] <= at || at <= bounds.min[axis] {
         return None;
     }
     let (mut below, mut above) = (bounds, bounds);
     (below.max[axis], above.min[axis]) = (at, at);
-    let pieces = [parts.inside(part, &below), parts.inside(part, &above)];
+    let pieces = [knife.inside(part, &below), knife.inside(part, &above)];
     // What is not in one of them is in the other, whole.
     (!pieces.iter().any(|piece| piece.is_empty())).then_some(pieces)
 }
 
 impl Cut {
-    pub(super) fn new(parts: &Parts<'_>, inside: &[u32], Plane { axis, at }: Plane) -> Self {
+    pub(super) fn new(knife: &Knife<'_>, inside: &[Part], Plane { axis, at }: Plane) -> Self {
         let side = || Side { whole: Vec::new(), bounds: Aabb::EMPTY, weight: 0.0 };
         let mut cut = Self { left: side(), right: side(), through: Vec::new() };
         for &part in inside {
-            let (bounds, weight) = (parts.of.boxes[part as usize], parts.of.weights[part as usize]);
-            if let Some(pieces) = halved(parts, part, axis, at) {
+            let (bounds, weight) = (part.around().bounds(), part.weight());
+            if let Some(pieces) = halved(knife, &part, axis, at) {
                 cut.left.put(pieces[0], weight);
                 cut.right.put(pieces[1], weight);
                 cut.through.push((part, pieces));
@@ -63,15 +64,15 @@ impl Cut {
             side.put(bounds, weight);
             side.whole.push(part);
         }
-        cut.put_back(parts);
+        cut.put_back();
         cut
     }
 
     /// Leaves parts whole, on one side, where that costs less.
-    fn put_back(&mut self, parts: &Parts<'_>) {
+    fn put_back(&mut self) {
         let Self { left, right, .. } = self;
         self.through.retain(|&(part, _)| {
-            let (bounds, weight) = (parts.of.boxes[part as usize], parts.of.weights[part as usize]);
+            let (bounds, weight) = (part.around().bounds(), part.weight());
             let both = left.cost() + right.cost();
             let with = |side: &Side| side.bounds.join(bounds).surface_area() * side.weight;
             let without = |side: &Side| side.bounds.surface_area() * (side.weight - weight);
@@ -102,13 +103,14 @@ impl Cut {
     }
 
     /// Makes two parts of each that is on both sides; returns what is on each.
-    pub(super) fn made(self, parts: &mut Parts<'_>) -> [Vec<u32>; 2] {
+    pub(super) fn made(self) -> [Vec<Part>; 2] {
         let Self {
             left: Side { whole: mut left, .. }, right: Side { whole: mut right, .. }, ..
         } = self;
         for (part, pieces) in self.through {
-            left.push(part);
-            right.push(parts.divide(part, pieces));
+            let [below, above] = pieces.map(|piece| part.piece(&piece));
+            left.push(below);
+            right.push(above);
         }
         [left, right]
     }

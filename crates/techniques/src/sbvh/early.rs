@@ -7,9 +7,11 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use nestray_core::aabb::{Aabb, Clip};
+use rayon::prelude::*;
 
-use super::build::Parts;
+use super::build::Knife;
 use super::cut::halved;
+use crate::bvh::part::Part;
 
 /// How large a child must be, relative to a leaf in a good tree.
 const LARGE: f64 = 1.0;
@@ -42,33 +44,41 @@ impl Ord for Worth {
     }
 }
 
-/// Halves parts that are much larger than leaves, those first by which most surface is saved,
-/// until there are `room` of them.
-pub(super) fn cut_large(parts: &mut Parts<'_>, bounds: &Aabb, room: usize) {
-    let count = parts.of.boxes.len();
-    let in_leaf = parts.of.together as f64 / count as f64;
+/// Halves parts that are much larger than leaves of `together`, those first by which most surface is
+/// saved, until there are `room` of them.
+pub(super) fn cut_large(
+    knife: &Knife<'_>,
+    parts: &mut Vec<Part>,
+    bounds: &Aabb,
+    together: usize,
+    room: usize,
+) {
+    let in_leaf = together as f64 / parts.len() as f64;
     let least = LARGE * f64::from(bounds.surface_area()) * libm::cbrt(in_leaf * in_leaf);
-    let worth = |parts: &Parts<'_>, part: u32| {
-        let bounds = parts.of.boxes[part as usize];
+    let worth = |(number, part): (usize, &Part)| {
+        let bounds = part.around().bounds();
         let is_large = f64::from(bounds.surface_area()) > least;
-        let halves = if is_large { halves(parts, part, bounds)? } else { return None };
+        let halves = if is_large { halves(knife, part, bounds)? } else { return None };
         let saved = bounds.surface_area() - halves[0].surface_area() - halves[1].surface_area();
-        (saved > 0.0).then_some(Worth { saved, part, halves })
+        (saved > 0.0).then_some(Worth { saved, part: number as u32, halves })
     };
     let mut open: BinaryHeap<Worth> =
-        (0..count as u32).filter_map(|part| worth(parts, part)).collect();
-    while parts.of.boxes.len() < room
+        parts.par_iter().enumerate().filter_map(worth).collect::<Vec<_>>().into();
+    while parts.len() < room
         && let Some(Worth { part, halves, .. }) = open.pop()
     {
-        let other = parts.divide(part, halves);
-        open.extend([part, other].into_iter().filter_map(|part| worth(parts, part)));
+        let (one, other) = (part as usize, parts.len());
+        let [a, b] = halves.map(|half| parts[one].piece(&half));
+        parts[one] = a;
+        parts.push(b);
+        open.extend([one, other].into_iter().filter_map(|part| worth((part, &parts[part]))));
     }
 }
 
 /// What is in each half of a box, cut across its longest axis.
-fn halves(parts: &Parts<'_>, part: u32, bounds: Aabb) -> Option<[Aabb; 2]> {
+fn halves(knife: &Knife<'_>, part: &Part, bounds: Aabb) -> Option<[Aabb; 2]> {
     let size = bounds.size();
     let axis = (0..3).max_by(|&a, &b| size[a].total_cmp(&size[b]))?;
-    let is_wide = size[axis] > 32.0 * Clip::SLACK * parts.reach;
-    is_wide.then(|| halved(parts, part, axis, bounds.center()[axis]))?
+    let is_wide = size[axis] > 32.0 * Clip::SLACK * knife.reach;
+    is_wide.then(|| halved(knife, part, axis, bounds.center()[axis]))?
 }

@@ -2,7 +2,8 @@
 
 use nestray_core::aabb::{Aabb, Clip};
 
-use super::build::Parts;
+use super::build::Knife;
+use crate::bvh::part::Part;
 use crate::cells::Plane;
 
 /// Most slices along an axis.
@@ -27,19 +28,20 @@ struct Slice {
 /// The plane with the least `area × Σ weights` on both sides if parts are cut by it, if that seems
 /// less than `cost`.
 pub(super) fn best_cut(
-    parts: &Parts<'_>,
-    inside: &[u32],
+    knife: &Knife<'_>,
+    inside: &[Part],
     bounds: &Aabb,
     cost: f32,
 ) -> Option<Plane> {
     let every = inside.len().div_ceil(MOST_ASKED);
-    let asked: Vec<u32> = inside.iter().copied().step_by(every).collect();
+    let asked: Vec<Part> = inside.iter().copied().step_by(every).collect();
+    let weight = |parts: &[Part]| parts.iter().map(Part::weight).sum::<f32>();
     // What those are asked for weigh more.
-    let scale = parts.weight(inside) / parts.weight(&asked);
+    let scale = weight(inside) / weight(&asked);
     let mut best = None;
     let mut least = cost / scale;
     for axis in 0..3 {
-        if let Some((plane, cost)) = best_along(axis, parts, &asked, bounds)
+        if let Some((plane, cost)) = best_along(axis, knife, &asked, bounds)
             && cost < least
         {
             (best, least) = (Some(plane), cost);
@@ -51,16 +53,16 @@ pub(super) fn best_cut(
 /// The best plane across an axis.
 fn best_along(
     axis: usize,
-    parts: &Parts<'_>,
-    inside: &[u32],
+    knife: &Knife<'_>,
+    inside: &[Part],
     bounds: &Aabb,
 ) -> Option<(Plane, f32)> {
     let (low, size) = (bounds.min[axis], bounds.size()[axis]);
     // Slices must be wider than rounding.
-    if size <= SLICES as f32 * 16.0 * Clip::SLACK * parts.reach {
+    if size <= SLICES as f32 * 16.0 * Clip::SLACK * knife.reach {
         return None;
     }
-    let spans: f32 = inside.iter().map(|&part| parts.of.boxes[part as usize].size()[axis]).sum();
+    let spans: f32 = inside.iter().map(|part| part.around().bounds().size()[axis]).sum();
     let is_crowded = spans / size * SLICES as f32 > 2.0 * inside.len() as f32;
     let count = match inside.len() {
         _ if is_crowded => LEAST_SLICES,
@@ -69,7 +71,7 @@ fn best_along(
     };
     let width = size / count as f32;
     let walls: Vec<f32> = (0..=count).map(|i| low + width * i as f32).collect();
-    let slices = sliced(axis, &walls, parts, inside);
+    let slices = sliced(axis, &walls, knife, inside);
     let mut right = [0.0; SLICES];
     let (mut all, mut weight) = (Aabb::EMPTY, 0.0);
     for i in (1..count).rev() {
@@ -89,16 +91,16 @@ fn best_along(
 }
 
 /// What is in each slice between two walls.
-fn sliced(axis: usize, walls: &[f32], parts: &Parts<'_>, inside: &[u32]) -> [Slice; SLICES] {
+fn sliced(axis: usize, walls: &[f32], knife: &Knife<'_>, inside: &[Part]) -> [Slice; SLICES] {
     let mut slices = [Slice { bounds: Aabb::EMPTY, begin: 0.0, end: 0.0 }; SLICES];
     let count = walls.len() - 1;
     let (low, width) = (walls[0], (walls[count] - walls[0]) / count as f32);
     let slice = |at: f32| (((at - low) / width) as usize).min(count - 1);
-    for &part in inside {
-        let bounds = parts.of.boxes[part as usize];
+    for part in inside {
+        let bounds = part.around().bounds();
         let (first, last) = (slice(bounds.min[axis]), slice(bounds.max[axis]));
-        slices[first].begin += parts.of.weights[part as usize];
-        slices[last].end += parts.of.weights[part as usize];
+        slices[first].begin += part.weight();
+        slices[last].end += part.weight();
         for i in first..=last {
             let mut cell = bounds;
             if first < i {
@@ -107,7 +109,7 @@ fn sliced(axis: usize, walls: &[f32], parts: &Parts<'_>, inside: &[u32]) -> [Sli
             if i < last {
                 cell.max[axis] = walls[i + 1];
             }
-            let piece = if first == last { bounds } else { parts.inside(part, &cell) };
+            let piece = if first == last { bounds } else { knife.inside(part, &cell) };
             slices[i].bounds = slices[i].bounds.join(piece);
         }
     }

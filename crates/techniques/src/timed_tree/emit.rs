@@ -80,7 +80,7 @@ impl Emit<'_> {
         let me = self.nodes.len();
         self.nodes.push(Vec::new());
         let children = self.forests.children(&self.tree.pairs, i);
-        let parts = children.into_iter().map(|child| self.part(child)).collect();
+        let parts = children.iter().map(|&child| self.part(child)).collect();
         self.nodes[me] = parts;
         Step::onward(me as u32)
     }

@@ -2,7 +2,9 @@
 
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
-use nestray_core::family::{self, Family};
+use nestray_core::family::Family;
+use nestray_core::huge::Huge;
+use rayon::prelude::*;
 
 use super::{LeafSize, collapse};
 
@@ -10,7 +12,7 @@ use super::{LeafSize, collapse};
 #[derive(Debug)]
 pub struct Contents {
     /// A box around each.
-    pub boxes: Vec<Aabb>,
+    pub boxes: Huge<Aabb>,
     /// [`Family::weight`] of each.
     pub weights: Vec<f32>,
     /// See [`Family::together`].
@@ -19,8 +21,18 @@ pub struct Contents {
 
 impl Contents {
     pub(crate) fn new(family: &dyn Family) -> Self {
-        let weights = (0..family.count()).map(|child| family.weight(child)).collect();
-        Self { boxes: family::boxes(family), weights, together: family.together() }
+        /// Boxes that one thread asks for.
+        const CHUNK: usize = 8192;
+        let mut boxes = Huge::repeated(Aabb::EMPTY, family.count() as usize);
+        boxes.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, boxes)| {
+            family.boxes((chunk * CHUNK) as u32, boxes);
+        });
+        Self { boxes, weights: family.weights(), together: family.together() }
+    }
+
+    /// Whether all children weigh the same.
+    pub(crate) fn is_even(&self) -> bool {
+        self.weights.windows(2).all(|pair| pair[0] == pair[1])
     }
 
     /// Twice the centre of a child's box.
@@ -41,7 +53,8 @@ impl Contents {
     }
 }
 
-/// A node of the binary tree; a single child if `left` is 0.
+/// A node of the binary tree; not split if `left` is 0. What is below the side with the smaller
+/// number comes right behind it, then what is below the other.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// A box around all below.

@@ -27,11 +27,9 @@ impl WideTree {
 
     /// The same tree, not yet renamed, with the number of each leaf kept beside its name.
     pub(crate) fn with_leaf_numbers(mut self) -> Self {
-        let mut nodes = self.nodes.to_vec();
-        for node in &mut nodes {
+        for node in self.nodes.iter_mut() {
             node.spare = node.words.map(|word| Step::from_word(word).as_leaf().0);
         }
-        self.nodes = Huge::new(&nodes, 0);
         self
     }
 
