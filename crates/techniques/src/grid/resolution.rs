@@ -9,6 +9,8 @@ use super::Grid;
 pub(crate) const STEP: f64 = 4.0;
 /// Densities to choose from, in cells per child.
 const DENSITIES: [f32; 8] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+/// Most cells in all.
+const MOST_ALL: f64 = (1u32 << 27) as f64;
 /// Children looked at to choose, evenly spread.
 const SAMPLE: usize = 20_000;
 
@@ -43,21 +45,49 @@ pub(super) fn resolution(
 
 /// About cubical cells, `density` per child.
 fn cells(params: &Grid, bounds: Aabb, children: usize, density: f32) -> [u32; 3] {
-    // In doubles: volumes of huge boxes overflow.
-    let size = bounds.size().as_dvec3();
-    let wanted = f64::from(density) * children as f64;
-    let per_unit = cube_root(wanted / size.element_product());
-    let least = f64::from(8.0 * Clip::SLACK * bounds.reach());
-    size.to_array().map(|edge| {
+    let limits = Limits {
         // Cells narrower than rounding would hold everything anyway.
-        let most = (edge / least).min(f64::from(params.max_cells)).max(1.0);
-        (edge * per_unit).clamp(1.0, most) as u32
-    })
+        least: 8.0 * Clip::SLACK * bounds.reach(),
+        along: params.max_cells.into(),
+        all: MOST_ALL,
+    };
+    cubical(bounds, f64::from(density) * children as f64, &limits)
 }
 
-/// The cube root of a positive number by Newton's method: the same on every machine.
-fn cube_root(x: f64) -> f64 {
-    if !(x.is_finite() && x > 0.0) {
+/// What cells must not exceed.
+pub(crate) struct Limits {
+    /// How narrow they may be.
+    pub(crate) least: f32,
+    /// How many there may be along one axis, and in all.
+    pub(crate) along: f64,
+    pub(crate) all: f64,
+}
+
+/// About cubical cells, `wanted` in all but for rounding; narrow axes first, so that the others
+/// take up what is left [Havran 00].
+pub(crate) fn cubical(bounds: Aabb, wanted: f64, limits: &Limits) -> [u32; 3] {
+    let size = bounds.size().as_dvec3();
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&a, &b| size[a].total_cmp(&size[b]));
+    let mut cells = [1; 3];
+    let mut left = wanted.clamp(1.0, limits.all);
+    for (place, axis) in axes.into_iter().enumerate() {
+        let edge = size[axis];
+        let along = match place {
+            0 => cube_root(left * (edge / size[axes[1]]) * (edge / size[axes[2]])),
+            1 => (left * (edge / size[axes[2]])).sqrt(),
+            _ => left,
+        };
+        let most = (edge / f64::from(limits.least)).clamp(1.0, limits.along);
+        cells[axis] = (along + 0.5).max(1.0).min(most) as u32;
+        left = (left / f64::from(cells[axis])).max(1.0);
+    }
+    cells
+}
+
+/// The cube root of a number by Newton's method: the same on every machine.
+pub(crate) fn cube_root(x: f64) -> f64 {
+    if !(x.is_finite() && x > 1e-30) {
         return 0.0;
     }
     // A third of the exponent is a good start.
@@ -115,8 +145,7 @@ impl Counted<'_> {
         // Wide children are kept apart.
         let entries = |child| Some(self.block(child, cell).1).filter(|&n| n <= all / 4.0);
         let entries: f64 = sample.filter_map(entries).sum::<f64>() * each;
-        all <= (64.0 * count + 4096.0).min(f64::from(1u32 << 27))
-            && entries <= 16.0 * count + 4096.0
+        all <= (64.0 * count + 4096.0).min(MOST_ALL) && entries <= 16.0 * count + 4096.0
     }
 
     /// Nanoseconds a random line takes, all the way through.

@@ -5,7 +5,7 @@ use nestray_core::aabb::Aabb;
 
 use super::build::Crowd;
 use super::frame::Frame;
-use crate::grid::resolution::{Counted, STEP, steps};
+use crate::grid::resolution::{self, Counted, Limits, STEP, cube_root, steps};
 
 /// Most entries in leaves for each child, and for all together.
 pub(super) const MOST_ENTRIES: f64 = 16.0;
@@ -17,39 +17,10 @@ const MOST_ALL: f64 = (1u32 << 23) as f64;
 /// Densities to choose from where empty cells cost little, in cells per child.
 const FINE: [f64; 8] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
-/// About cubical cells, `wanted` in all but for rounding; narrow axes first, so that the others
-/// take up what is left [Havran 00].
+/// About cubical cells, `wanted` in all but for rounding.
 pub(crate) fn cubical(crowd: &Crowd<'_>, wanted: f64) -> [u32; 3] {
-    let size = crowd.bounds.size().as_dvec3();
-    let mut axes = [0, 1, 2];
-    axes.sort_by(|&a, &b| size[a].total_cmp(&size[b]));
-    let mut cells = [1; 3];
-    let mut left = wanted.clamp(1.0, MOST_ALL);
-    for (place, axis) in axes.into_iter().enumerate() {
-        let edge = size[axis];
-        let along = match place {
-            0 => cube_root(left * (edge / size[axes[1]]) * (edge / size[axes[2]])),
-            1 => (left * (edge / size[axes[2]])).sqrt(),
-            _ => left,
-        };
-        let most = (edge / f64::from(crowd.least)).clamp(1.0, MOST_CELLS);
-        cells[axis] = (along + 0.5).max(1.0).min(most) as u32;
-        left = (left / f64::from(cells[axis])).max(1.0);
-    }
-    cells
-}
-
-/// The cube root of a number, by Newton's method: the same on every machine.
-fn cube_root(x: f64) -> f64 {
-    if !(x.is_finite() && x > 1e-30) {
-        return 0.0;
-    }
-    // A third of the exponent is a good start.
-    let mut root = f64::from_bits(x.to_bits() / 3 + 0x2A9F_7893_782D_A1CE);
-    for _ in 0..6 {
-        root -= (root - x / (root * root)) / 3.0;
-    }
-    root
+    let limits = Limits { least: crowd.least, along: MOST_CELLS, all: MOST_ALL };
+    resolution::cubical(crowd.bounds, wanted, &limits)
 }
 
 /// As many cells as asked for, or the most below for which lists do not outgrow the children.
