@@ -64,11 +64,13 @@ impl Axis {
         self.at[0] + (self.at[1] - self.at[0]) * part
     }
 
-    /// 1, 2 and 5 times powers of ten.
+    /// 1, 2 and 5 times powers of ten; more where there are few.
     fn marks(self) -> Vec<f64> {
         let decades = self.ends[0].floor() as i32..=self.ends[1].ceil() as i32;
-        let all = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|m| m * 10_f64.powi(decade)));
         let [low, high] = self.ends;
+        let few: &[f64] = &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0];
+        let steps = if high - low < 0.8 { few } else { &[1.0, 2.0, 5.0] };
+        let all = decades.flat_map(|decade| steps.iter().map(move |m| m * 10_f64.powi(decade)));
         all.filter(|mark| (low - 1e-9..=high + 1e-9).contains(&mark.log10())).collect()
     }
 }
