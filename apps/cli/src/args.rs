@@ -1,6 +1,7 @@
 //! The command line.
 
 mod names;
+mod optimize;
 mod values;
 
 use std::path::PathBuf;
@@ -11,6 +12,7 @@ use clap::{Parser, Subcommand};
 use crate::errors::Failure;
 
 pub(crate) use self::names::{CurveName, FilterName, IntegratorName, ListName, ProgressMode};
+pub(crate) use self::optimize::{Budget, OptimizeArgs, Weights};
 pub(crate) use self::values::{Frames, Numbers, Window};
 
 /// Ray tracing by nested acceleration techniques.
@@ -56,6 +58,8 @@ pub(crate) enum Verb {
     Inspect(InspectArgs),
     /// Let plans shoot the same rays, in turns.
     Bench(BenchArgs),
+    /// Find the plan that is fastest for a scene.
+    Optimize(OptimizeArgs),
 }
 
 /// `nestray demo`.

@@ -1,7 +1,5 @@
 //! `nestray demo`.
 
-mod race;
-
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -10,7 +8,7 @@ use nestray::core::cost::CostModel;
 use nestray::io::write::write_picture;
 use nestray::plan::build::build;
 use nestray::plan::describe::{bytes, describe};
-use nestray::plan::single::AUTO;
+use nestray::plan::optimize as search;
 use nestray::prelude::{DynObject, Scene};
 use nestray::render::options::{Integrator, Options};
 use nestray::render::ray_counts::RayCounts;
@@ -19,9 +17,10 @@ use nestray::render::tone_map::{Curve, ToneMap};
 use nestray::render::watch::Watch;
 use nestray::scene::picture::Picture;
 
-use crate::args::{DemoArgs, Talk};
+use crate::args::{DemoArgs, Talk, Weights};
 use crate::errors::Failure;
-use crate::input::{self, Choice};
+use crate::input;
+use crate::optimize::{self, report};
 use crate::progress::{Progress, Watching, rate};
 use crate::render::settings::WHITES;
 use crate::stats::{self, Stats};
@@ -39,6 +38,15 @@ const SAMPLES: u32 = 64;
 /// Samples per pixel between two looks at the clock.
 const PASS: u32 = 4;
 
+/// How long a nest is searched for; timing the best takes about as long again.
+const SEARCH: Duration = Duration::from_secs(6);
+
+/// Rays of each kind to search with and to time with.
+const RAYS: usize = 32_768;
+
+/// Rays that the picture takes, about.
+const EXPECTED: f64 = 1e8;
+
 /// When the picture is good enough, counted from the start of the program.
 const ENOUGH: Duration = Duration::from_secs(40);
 
@@ -50,19 +58,25 @@ pub(crate) fn run(_args: &DemoArgs, talk: &Talk) -> Result<(), Failure> {
     output::check(Path::new(PICTURE))?;
     output::check(Path::new(REPORT))?;
     let scene = stats.stage("make", || input::builtin("demo", None))?;
-    let choice = Choice::Technique("auto".into());
-    let plan = choice.plan(&scene)?;
-    let world = stats.stage("build", || build(&plan, &scene)).map_err(|e| choice.failure(&e))?;
+    let log = optimize::log(&scene, &Weights::default(), RAYS)?;
+    let options = search::Options {
+        time: Some(SEARCH),
+        rays_expected: EXPECTED,
+        rounds: 3,
+        ..search::Options::default()
+    };
+    let found = stats.stage("optimize", || optimize::search(&scene, &log, &options, progress))?;
     stop::check()?;
-    let race = stats.stage("compare", || race::run(&scene, &world, progress))?;
-    stop::check()?;
+    let failure = |error| input::plan_failure(&error, None);
+    let world = stats.stage("build", || build(&found.plan, &scene)).map_err(failure)?;
     let clock = Clock { watching: progress.watch("demo"), begun };
     let painted = stats.stage("render", || paint(&scene, &world, &clock))?;
     drop(clock);
     let shown = ToneMap { curve: Curve::Aces, ..ToneMap::default() }.bytes(&painted.picture);
     stats.stage("write", || write_picture(Path::new(PICTURE), &painted.picture, Some(&shown)))?;
-    let mut text = about(&scene, &plan.hash(), &world);
-    text.push_str(&race);
+    let mut text = about(&scene, &found.plan.hash(), &world);
+    text.push_str("\nHow it was chosen\n");
+    text.push_str(&report::text(&found, &log));
     text.push_str(&about_picture(&painted, &stats));
     output::write(Path::new(REPORT), text.as_bytes())?;
     output::say(&text)?;
@@ -157,7 +171,7 @@ fn about(scene: &Scene, hash: &str, world: &DynObject) -> String {
     let _ = writeln!(text, "nestray {version}, vector level {}", stats::level());
     let _ =
         writeln!(text, "\nThe scene: {} primitives, {stored} of them stored", scene.primitives());
-    let _ = writeln!(text, "\nThe nest (auto is {AUTO} for now), plan {hash}");
+    let _ = writeln!(text, "\nThe nest that was found for it, plan {hash}");
     let _ = writeln!(text, "Times beside it are expected from rough prices, not measured.");
     text.push_str(&part.to_text());
     text
@@ -182,7 +196,7 @@ fn about_picture(painted: &Painted, stats: &Stats) -> String {
     let rays = painted.rays.total().cast;
     let _ = writeln!(text, "  together {rays:>12} rays in {seconds:.2} s, {}", rate(rays, seconds));
     let _ = writeln!(text, "\nTimes");
-    for stage in ["make", "build", "compare", "render", "write"] {
+    for stage in ["make", "optimize", "build", "render", "write"] {
         let _ = writeln!(text, "  {stage:<8} {:>6.2} s", stats.seconds(stage));
     }
     if let Some(peak) = stats::peak_memory() {

@@ -8,6 +8,7 @@ mod errors;
 mod generate;
 mod input;
 mod inspect;
+mod optimize;
 mod output;
 mod progress;
 mod query;
@@ -44,5 +45,6 @@ fn run(args: &args::Args) -> Result<(), Failure> {
         Verb::Convert(convert) => convert::run(convert, talk),
         Verb::Inspect(inspect) => inspect::run(inspect, talk),
         Verb::Bench(bench) => bench::run(bench, talk),
+        Verb::Optimize(optimize) => optimize::run(optimize, talk),
     }
 }

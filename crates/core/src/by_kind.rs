@@ -58,22 +58,54 @@ impl<O: Object> ByKind<O> {
 
     /// What serves rays of this kind.
     pub fn serving(&self, kind: RayKind) -> &O {
-        let case = self.cases.iter().find(|(case, _)| case.matches(kind));
-        case.map_or(&self.other, |(_, object)| object)
+        self.object(self.number(kind))
     }
 
     fn objects(&self) -> impl Iterator<Item = &O> {
         self.cases.iter().map(|(_, object)| object).chain([&self.other])
     }
 
-    /// Calls `ask` with each run of rays of one kind, and who serves it.
-    fn by_runs(&self, rays: &[Ray], mut ask: impl FnMut(&O, std::ops::Range<usize>)) {
+    /// Which object serves rays of this kind: the number of its case, or how many there are.
+    fn number(&self, kind: RayKind) -> usize {
+        let case = self.cases.iter().position(|(case, _)| case.matches(kind));
+        case.unwrap_or(self.cases.len())
+    }
+
+    fn object(&self, number: usize) -> &O {
+        self.cases.get(number).map_or(&self.other, |(_, object)| object)
+    }
+
+    /// Calls `ask` with each object and rays that it serves, as many as there are in a row; those of
+    /// short rows are put together. Then `answers` has theirs.
+    fn by_object<A: Copy>(
+        &self,
+        rays: &[Ray],
+        answers: &mut [A],
+        mut ask: impl FnMut(&O, &[Ray], &mut [A]),
+    ) {
+        /// Rays in a row that are worth a batch of their own.
+        const ROW: usize = 64;
+        let mut scattered = vec![Vec::new(); self.cases.len() + 1];
         let mut start = 0;
         while start < rays.len() {
-            let kind = rays[start].kind();
-            let count = rays[start..].iter().take_while(|ray| ray.kind() == kind).count();
-            ask(self.serving(kind), start..start + count);
-            start += count;
+            let number = self.number(rays[start].kind());
+            let same = |ray: &&Ray| self.number(ray.kind()) == number;
+            let end = start + rays[start..].iter().take_while(same).count();
+            if end - start >= ROW || end - start == rays.len() {
+                ask(self.object(number), &rays[start..end], &mut answers[start..end]);
+            } else {
+                scattered[number].extend(start..end);
+            }
+            start = end;
+        }
+        for (number, which) in scattered.into_iter().enumerate() {
+            if which.is_empty() {
+                continue;
+            }
+            let mine: Vec<Ray> = which.iter().map(|&nth| rays[nth]).collect();
+            let mut found: Vec<A> = which.iter().map(|&nth| answers[nth]).collect();
+            ask(self.object(number), &mine, &mut found);
+            which.into_iter().zip(found).for_each(|(nth, answer)| answers[nth] = answer);
         }
     }
 }
@@ -110,14 +142,12 @@ impl<O: Object> Object for ByKind<O> {
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Hit], scratch: &mut Scratch) {
-        self.by_runs(rays, |object, run| {
-            object.closest_hits(&rays[run.clone()], &mut hits[run], scratch);
-        });
+        self.by_object(rays, hits, |object, rays, hits| object.closest_hits(rays, hits, scratch));
     }
 
     fn any_hits(&self, rays: &[Ray], blocked: &mut [bool], scratch: &mut Scratch) {
-        self.by_runs(rays, |object, run| {
-            object.any_hits(&rays[run.clone()], &mut blocked[run], scratch);
+        self.by_object(rays, blocked, |object, rays, blocked| {
+            object.any_hits(rays, blocked, scratch);
         });
     }
 

@@ -22,3 +22,5 @@ pub mod presets;
 pub mod single;
 
 pub mod describe;
+
+pub mod optimize;

@@ -4,5 +4,6 @@ mod bad_input;
 mod bench;
 #[cfg(unix)]
 mod interrupt;
+mod optimize;
 mod program;
 mod verbs;

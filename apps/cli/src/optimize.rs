@@ -1,0 +1,107 @@
+//! `nestray optimize`: the plan that is fastest for a scene.
+
+pub(crate) mod report;
+
+use nestray::core::cost::CostModel;
+use nestray::io::load::LoadOptions;
+use nestray::plan::build::build;
+use nestray::plan::optimize::ray_log::{RayLog, RaySet};
+use nestray::plan::optimize::{Observer, Optimized, Options, optimize};
+use nestray::plan::single::{AUTO, single};
+use nestray::prelude::Scene;
+use nestray::render::watch::Watch as _;
+
+use crate::args::{Budget, OptimizeArgs, Talk, Weights};
+use crate::bench::rays;
+use crate::errors::Failure;
+use crate::progress::{Progress, Watching};
+use crate::{input, output, stop};
+
+/// Rays of each kind, to search with and to time with.
+const RAYS: usize = 65_536;
+/// Lights that shadow rays go to, at most.
+const LIGHTS: usize = 8;
+
+pub(crate) fn run(args: &OptimizeArgs, talk: &Talk) -> Result<(), Failure> {
+    let progress = Progress::new(talk);
+    for path in std::iter::once(&args.output).chain(&args.report) {
+        output::check(path)?;
+    }
+    let scene = input::scene(&args.scene, &LoadOptions::default(), &progress)?;
+    let log = log(&scene, &args.weights, args.rays.unwrap_or(RAYS))?;
+    let (evaluations, time) = match args.budget {
+        Budget::Time(time) => (None, Some(time)),
+        Budget::Plans(plans) => (Some(plans), None),
+    };
+    let options = Options {
+        techniques: args.techniques.clone(),
+        evaluations,
+        time,
+        seed: args.seed,
+        rays_expected: args.rays_expected,
+        max_memory: args.max_memory.unwrap_or(u64::MAX),
+        rounds: args.rounds,
+    };
+    let found = search(&scene, &log, &options, progress)?;
+    output::write(&args.output, found.plan.to_json().as_bytes())?;
+    if let Some(path) = &args.report {
+        let json = report::json(&found, &log, &options);
+        output::write(path, format!("{json:#}\n").as_bytes())?;
+    }
+    if args.output.as_os_str() != "-" {
+        output::say(&report::text(&found, &log))?;
+    }
+    if stop::asked() { Err(stop::interrupted("the best so far was written")) } else { Ok(()) }
+}
+
+/// Searches, and shows how far it is.
+pub(crate) fn search(
+    scene: &Scene,
+    log: &RayLog,
+    options: &Options,
+    progress: Progress,
+) -> Result<Optimized, Failure> {
+    let screen = Screen { watching: progress.watch("optimize"), options };
+    optimize(scene, log, CostModel::usual(), options, &screen)
+        .map_err(|error| Failure::usage(error).hint("nestray inspect --list techniques"))
+}
+
+/// Rays from the first camera and from what they hit, as heavy as asked for.
+pub(crate) fn log(scene: &Scene, weights: &Weights, count: usize) -> Result<RayLog, Failure> {
+    let failure = |error| input::plan_failure(&error, None);
+    let plan = single(AUTO, Default::default(), scene).map_err(failure)?;
+    let world = build(&plan, scene).map_err(failure)?;
+    let sets = rays::sets(scene, &world, count, LIGHTS)?;
+    let log = RayLog::new(
+        sets.into_iter()
+            .map(|set| RaySet {
+                name: set.name.into(),
+                weight: weights.of(set.name),
+                rays: set.rays,
+                any: set.any,
+            })
+            .collect(),
+    );
+    if log.sets.is_empty() {
+        let failure = Failure::usage("--weights: there are no rays of these kinds");
+        return Err(failure.hint("camera=1,shadow=4,reflect=1,diffuse=4,chords=0"));
+    }
+    Ok(log)
+}
+
+/// Shows how far the search is.
+struct Screen<'a> {
+    watching: Watching,
+    options: &'a Options,
+}
+
+impl Observer for Screen<'_> {
+    fn tried(&self, evaluations: usize, _best: f64) {
+        let total = self.options.evaluations.unwrap_or(0).max(evaluations);
+        self.watching.advanced(evaluations as u64, total as u64, 0);
+    }
+
+    fn stop(&self) -> bool {
+        stop::asked()
+    }
+}

@@ -1,0 +1,117 @@
+//! What a search found, for people and for programs.
+
+use std::fmt::Write as _;
+
+use nestray::plan::describe::bytes;
+use nestray::plan::optimize::measure::Measured;
+use nestray::plan::optimize::ray_log::RayLog;
+use nestray::plan::optimize::{Optimized, Options};
+use serde_json::{Value, json};
+
+/// A table: what was expected and what was measured.
+pub(crate) fn text(found: &Optimized, log: &RayLog) -> String {
+    let mut text = String::new();
+    let Optimized { evaluations, search_seconds, finalists, .. } = found;
+    let _ = writeln!(text, "{evaluations} plans tried in {search_seconds:.1} s");
+    let mix: Vec<String> =
+        log.sets.iter().map(|set| format!("{:.0} % {}", 100.0 * set.weight, set.name)).collect();
+    let _ = writeln!(text, "a ray of the mix: {}", mix.join(", "));
+    let _ = writeln!(text, "nanoseconds per ray, measured (expected):\n");
+    let _ = write!(text, "{:<22} {:>16}", "plan", "mix");
+    for set in &log.sets {
+        let _ = write!(text, " {:>16}", set.name);
+    }
+    let _ = writeln!(text, " {:>8} {:>10}", "build s", "memory");
+    for one in finalists {
+        row(&mut text, one, log);
+    }
+    let winner = &finalists[0];
+    let single = finalists.iter().filter(|one| one.finalist.is_single);
+    if let Some(best) = single.min_by(|a, b| a.total.total_cmp(&b.total)) {
+        let _ = writeln!(
+            text,
+            "\nthe fastest, {}, is {:.2} times as fast as the best single technique, {}",
+            winner.finalist.name,
+            best.total / winner.total,
+            best.finalist.name
+        );
+    }
+    if let Some(rho) = spearman(finalists, log) {
+        let _ = writeln!(text, "expected against measured: rank correlation {rho:.2}");
+    }
+    text
+}
+
+fn row(text: &mut String, one: &Measured, log: &RayLog) {
+    let expected = one.finalist.predicted.as_ref();
+    let cell = |measured: f64, expected: Option<f64>| match expected {
+        Some(expected) if expected.is_finite() => format!("{measured:.0} ({expected:.0})"),
+        _ => format!("{measured:.0}"),
+    };
+    let mix = cell(one.mix, expected.map(|score| score.mix(log)));
+    let _ = write!(text, "{:<22} {mix:>16}", one.finalist.name);
+    for (set, &measured) in one.nanos.iter().enumerate() {
+        let cell = cell(measured, expected.map(|score| score.nanos[set]));
+        let _ = write!(text, " {cell:>16}");
+    }
+    let _ = writeln!(text, " {:>8.2} {:>10}", one.build_seconds, bytes(one.bytes));
+}
+
+/// How alike the orders are that were expected and measured, for all kinds of rays together.
+fn spearman(finalists: &[Measured], log: &RayLog) -> Option<f64> {
+    let pairs: Vec<[f64; 2]> = finalists
+        .iter()
+        .filter_map(|one| Some([one.finalist.predicted.as_ref()?.mix(log), one.mix]))
+        .filter(|[expected, _]| expected.is_finite())
+        .collect();
+    if pairs.len() < 3 {
+        return None;
+    }
+    let ranks = |which: usize| -> Vec<f64> {
+        let of = |pair: &[f64; 2]| {
+            let below = pairs.iter().filter(|other| other[which] < pair[which]).count();
+            let equal = pairs.iter().filter(|other| other[which] == pair[which]).count();
+            below as f64 + 0.5 * (equal as f64 - 1.0)
+        };
+        pairs.iter().map(of).collect()
+    };
+    let (a, b) = (ranks(0), ranks(1));
+    let mean = 0.5 * (pairs.len() as f64 - 1.0);
+    let dot = |a: &[f64], b: &[f64]| -> f64 {
+        a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum()
+    };
+    let size = (dot(&a, &a) * dot(&b, &b)).sqrt();
+    (size > 0.0).then(|| dot(&a, &b) / size)
+}
+
+/// Everything, the trace of the search included.
+pub(super) fn json(found: &Optimized, log: &RayLog, options: &Options) -> Value {
+    let sets: Vec<Value> = log
+        .sets
+        .iter()
+        .map(|set| json!({ "kind": set.name, "weight": set.weight, "rays": set.rays.len() }))
+        .collect();
+    let finalists: Vec<Value> = found
+        .finalists
+        .iter()
+        .map(|one| {
+            let expected = one.finalist.predicted.as_ref().map(|score| &score.nanos);
+            json!({ "name": one.finalist.name, "single": one.finalist.is_single,
+                "plan": one.finalist.plan, "expected_nanos": expected,
+                "measured_nanos": one.nanos, "measured_mix": one.mix, "total": one.total,
+                "build_seconds": one.build_seconds, "bytes": one.bytes, "rounds": one.rounds })
+        })
+        .collect();
+    let trace: Vec<Value> = found
+        .trace
+        .iter()
+        .map(|round| {
+            json!({ "evaluations": round.evaluations, "best": round.best,
+                "energies": round.energies, "temperatures": round.temperatures,
+                "steps": round.steps, "exchanges": round.exchanges })
+        })
+        .collect();
+    json!({ "seed": options.seed, "evaluations": found.evaluations,
+        "search_seconds": found.search_seconds, "rays_expected": options.rays_expected,
+        "rays": sets, "finalists": finalists, "trace": trace })
+}

@@ -1,0 +1,56 @@
+//! `nestray optimize`.
+
+use serde_json::Value;
+
+use crate::program::nestray;
+
+/// A small search: as many plans, no time.
+const SEARCH: &[&str] =
+    &["optimize", "builtin:tetra@3", "--budget", "40evals", "--rays", "600", "--rounds", "1"];
+
+#[test]
+fn a_plan_is_found_that_serves_its_scene_and_no_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("a plain name").to_owned();
+    let (plan, report, picture) = (path("plan.json"), path("report.json"), path("picture.png"));
+    let files = ["-o", &plan, "--report", &report];
+    let said = nestray(&[SEARCH, &files].concat()).succeeds().output;
+    assert!(said.contains("plans tried") && said.contains("the best single technique"), "{said}");
+
+    let read = |path: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(path).expect("it was written")).expect("JSON")
+    };
+    let found = read(&report);
+    assert!(found["evaluations"].as_u64().is_some_and(|count| count <= 40), "{found}");
+    let finalists = found["finalists"].as_array().expect("a list");
+    assert_eq!(finalists[0]["plan"]["root"], read(&plan)["root"]);
+    for one in finalists {
+        assert!(one["total"].as_f64().is_some_and(|total| total > 0.0), "{one}");
+    }
+
+    let render = ["render", "builtin:tetra@3", "-o", &picture, "--plan", &plan];
+    nestray(&[&render[..], &["--resolution", "8x8", "--spp", "1"]].concat()).succeeds();
+    let other = ["render", "builtin:tetra@2", "-o", &picture, "--plan", &plan];
+    nestray(&other).fails(3, &["made for the scene"]);
+}
+
+#[test]
+fn the_plan_goes_to_standard_output_if_asked() {
+    let said = nestray(&[SEARCH, &["-o", "-"]].concat()).succeeds().output;
+    let plan: Value = serde_json::from_str(&said).expect("nothing but the plan");
+    assert!(plan["root"].is_object(), "{plan}");
+}
+
+#[test]
+fn what_cannot_be_searched_is_refused_by_name() {
+    let search = |more: &[&str]| nestray(&[SEARCH, &["-o", "never.json"], more].concat());
+    search(&["--techniques", "gird"]).fails(2, &["gird", "grid"]);
+    search(&["--weights", "camra=1"]).fails(2, &["camra", "camera"]);
+    search(&["--weights", "camera=0"]).fails(2, &["--weights"]);
+    search(&["--rays-expected", "0"]).fails(2, &["--rays-expected"]);
+    search(&["--max-memory", "4X"]).fails(2, &["--max-memory"]);
+    nestray(&["optimize", "builtin:tetra@2", "-o", "never.json", "--budget", "soon"])
+        .fails(2, &["soon", "2000evals"]);
+    nestray(&["optimize", "nowhere.obj", "-o", "never.json"]).fails(3, &["nowhere.obj"]);
+    assert!(!std::path::Path::new("never.json").exists());
+}

@@ -1,0 +1,161 @@
+//! Finding the plan that is fastest for a scene.
+//!
+//! Rays of the kinds that will be cast say what counts: a [`RayLog`]. Plans are tried by building
+//! them, sending some of the rays through them, and pricing what was counted ([`Scorer`]). Replicas at
+//! different temperatures change plans step by step ([`anneal`]), each after a goal of its own: the
+//! mix of all rays, or those of one kind, for a world may be put in order for each kind apart. In
+//! the end the best of what was seen, and every single technique, are timed on other rays
+//! ([`measure`]); what is fastest then is taken, whatever was expected.
+
+pub mod anneal;
+pub mod measure;
+pub mod moves;
+pub mod ray_log;
+pub mod score;
+pub mod start;
+
+mod archive;
+
+use std::time::{Duration, Instant};
+
+use nestray_core::cost::CostModel;
+use nestray_scene::scene::Scene;
+
+use self::anneal::Tempering;
+use self::archive::Archive;
+use self::measure::{Finalist, Measured};
+use self::ray_log::RayLog;
+use self::score::Scorer;
+use crate::error::PlanError;
+use crate::fingerprint::fingerprint;
+use crate::plan::Plan;
+
+/// What may be spent, and on what.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Techniques that plans may use; all if there are none.
+    pub techniques: Vec<String>,
+    /// Most plans to try; the same number finds the same plans on every machine.
+    pub evaluations: Option<usize>,
+    /// Most time to try them; what is timed in the end comes on top.
+    pub time: Option<Duration>,
+    /// Another number goes other ways.
+    pub seed: u64,
+    /// Rays that will be cast: what building takes is spread over them.
+    pub rays_expected: f64,
+    /// Most memory of the objects, in bytes.
+    pub max_memory: u64,
+    /// Times that finalists shoot in turns.
+    pub rounds: usize,
+}
+
+impl Default for Options {
+    /// Thirty seconds, ten million rays, no limit on memory.
+    fn default() -> Self {
+        Self {
+            techniques: Vec::new(),
+            evaluations: None,
+            time: Some(Duration::from_secs(30)),
+            seed: 0,
+            rays_expected: 1e7,
+            max_memory: u64::MAX,
+            rounds: 5,
+        }
+    }
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Optimized {
+    /// The plan that was fastest, made for this scene.
+    pub plan: Plan,
+    /// The plan that was expected to be fastest: the same for the same scene, rays, seed, prices and
+    /// number of evaluations, on every machine and any number of threads.
+    pub expected: Plan,
+    /// All that was timed, the winner first, then as fast as they were.
+    pub finalists: Vec<Measured>,
+    /// Plans that were tried.
+    pub evaluations: usize,
+    /// Seconds that took, without the timing.
+    pub search_seconds: f64,
+    /// How the search went.
+    pub trace: Vec<anneal::Round>,
+}
+
+/// Is told how far it has come, and says when to stop.
+pub trait Observer: Sync {
+    /// After some plans were tried: how many, and what the best of them costs for the mix, in
+    /// nanoseconds per ray.
+    fn tried(&self, _evaluations: usize, _best: f64) {}
+
+    /// Whether to end the search: what is best so far is taken.
+    fn stop(&self) -> bool {
+        false
+    }
+}
+
+/// The fastest plan for a scene and the rays of `log`.
+///
+/// # Errors
+/// If the parts of the scene do not fit together, a technique is not known, or none can serve.
+pub fn optimize(
+    scene: &Scene,
+    log: &RayLog,
+    prices: &CostModel,
+    options: &Options,
+    observer: &dyn Observer,
+) -> Result<Optimized, PlanError> {
+    let begun = Instant::now();
+    let allowed = start::allowed(&options.techniques)?;
+    let (search_log, timed_log) = log.halves();
+    let scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
+    let mut archive = Archive::new(&search_log);
+    let limits = Limits { begun, options, observer };
+    start::singles(scene, &allowed, &scorer, &limits, &mut archive)?;
+    let mut trace = Vec::new();
+    Tempering::new(scene, &allowed, options.seed).run(&scorer, &limits, &mut archive, &mut trace);
+    let search_seconds = begun.elapsed().as_secs_f64();
+    let evaluations = archive.evaluations();
+    let expected = archive.cheapest();
+    let finalists: Vec<Finalist> = archive.finalists();
+    let mut measured = measure::race(scene, finalists, &timed_log, options, observer)?;
+    let winner = measure::choose(&mut measured);
+    let mut plan = measured[winner].finalist.plan.clone();
+    plan.scene = Some(fingerprint(scene));
+    measured[..].swap(0, winner);
+    measured[1..].sort_by(|a, b| a.total.total_cmp(&b.total));
+    Ok(Optimized { plan, expected, finalists: measured, evaluations, search_seconds, trace })
+}
+
+/// When to end.
+pub(crate) struct Limits<'a> {
+    begun: Instant,
+    options: &'a Options,
+    observer: &'a dyn Observer,
+}
+
+impl Limits<'_> {
+    /// Whether no more plans may be tried after so many.
+    pub(crate) fn reached(&self, evaluations: usize) -> bool {
+        self.observer.stop()
+            || self.options.evaluations.is_some_and(|most| evaluations >= most)
+            || self.options.time.is_some_and(|most| self.begun.elapsed() >= most)
+    }
+
+    /// How far the search is, from 0 to 1.
+    pub(crate) fn progress(&self, evaluations: usize) -> f64 {
+        let tried = self.options.evaluations.map(|most| evaluations as f64 / most.max(1) as f64);
+        let spent = self.options.time.map(|most| {
+            self.begun.elapsed().as_secs_f64() / most.as_secs_f64().max(f64::MIN_POSITIVE)
+        });
+        // Where plans are counted, the clock does not say what is done.
+        tried.or(spent).unwrap_or(0.0).min(1.0)
+    }
+
+    pub(crate) fn observer(&self) -> &dyn Observer {
+        self.observer
+    }
+}
+
+#[cfg(test)]
+mod tests;

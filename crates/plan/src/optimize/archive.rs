@@ -1,0 +1,195 @@
+//! All plans that were tried, and the best of them for each goal.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nestray_core::by_kind::Case;
+
+use super::measure::Finalist;
+use super::ray_log::RayLog;
+use super::score::Score;
+use crate::plan::{ByKind, Node, Plan};
+
+/// A plan and what it costs.
+#[derive(Clone, Debug)]
+pub(crate) struct Tried {
+    pub(crate) plan: Plan,
+    pub(crate) score: Score,
+    /// The technique, if it is one over everything with its usual settings.
+    pub(crate) single: Option<String>,
+}
+
+/// Every plan tried, by its hash.
+#[derive(Debug)]
+pub(crate) struct Archive {
+    log: RayLog,
+    tried: Vec<Tried>,
+    by_hash: BTreeMap<String, Option<usize>>,
+}
+
+/// What a search tries to make cheap: all rays, or those of one set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Goal {
+    Mix,
+    Set(usize),
+}
+
+/// Plans of each goal that are timed.
+const BEST: usize = 3;
+/// So many times as dear as the best, by what is expected, a single technique is timed too:
+/// expectations are never so far off.
+const HOPE: f64 = 20.0;
+
+impl Archive {
+    pub(crate) fn new(log: &RayLog) -> Self {
+        Self { log: log.clone(), tried: Vec::new(), by_hash: BTreeMap::new() }
+    }
+
+    /// Plans that were tried, also those that cannot be built.
+    pub(crate) fn evaluations(&self) -> usize {
+        self.by_hash.len()
+    }
+
+    /// Whether there is none that can be built.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.tried.is_empty()
+    }
+
+    /// What is known of a plan: nothing, that it cannot be built, or what it costs.
+    pub(crate) fn known(&self, hash: &str) -> Option<Option<usize>> {
+        self.by_hash.get(hash).copied()
+    }
+
+    /// Takes note of a plan; its number if it can be built.
+    pub(crate) fn add(
+        &mut self,
+        plan: Plan,
+        score: Option<Score>,
+        single: Option<String>,
+    ) -> Option<usize> {
+        let number = score.map(|score| {
+            self.tried.push(Tried { plan: plan.clone(), score, single });
+            self.tried.len() - 1
+        });
+        self.by_hash.insert(plan.hash(), number);
+        number
+    }
+
+    pub(crate) fn get(&self, number: usize) -> &Tried {
+        &self.tried[number]
+    }
+
+    /// Goals that differ.
+    pub(crate) fn goals(&self) -> Vec<Goal> {
+        let sets = self.log.sets.len();
+        let each = (0..sets).filter(|_| sets > 1).map(Goal::Set);
+        std::iter::once(Goal::Mix).chain(each).collect()
+    }
+
+    /// What a plan costs after some goal.
+    pub(crate) fn cost(&self, number: usize, goal: Goal) -> f64 {
+        let score = &self.tried[number].score;
+        match goal {
+            Goal::Mix => score.mix(&self.log),
+            Goal::Set(set) => score.nanos[set],
+        }
+    }
+
+    /// The best for a goal, the best first; of equals the first.
+    pub(crate) fn best(&self, goal: Goal) -> Vec<usize> {
+        let mut all: Vec<usize> = (0..self.tried.len()).collect();
+        all.sort_by(|&a, &b| self.cost(a, goal).total_cmp(&self.cost(b, goal)).then(a.cmp(&b)));
+        all
+    }
+
+    /// What is expected to be cheapest for the mix; a plan of one structure for all kinds.
+    pub(crate) fn cheapest(&self) -> Plan {
+        let best = self.best(Goal::Mix)[0];
+        self.tried[best].plan.clone()
+    }
+
+    /// Plans to be timed: every single technique for which there is any hope, the best for each
+    /// goal, and for each kind of rays the best for those.
+    pub(crate) fn finalists(&self) -> Vec<Finalist> {
+        let has_hope = |i: usize| {
+            let goals = self.goals();
+            let close = |&goal: &Goal| {
+                let best = self.best(goal).first().map_or(0.0, |&best| self.cost(best, goal));
+                self.cost(i, goal) <= HOPE * best
+            };
+            self.tried[i].single.is_some() && goals.iter().any(close)
+        };
+        let mut numbers: BTreeSet<usize> = (0..self.tried.len()).filter(|&i| has_hope(i)).collect();
+        for goal in self.goals() {
+            numbers.extend(self.best(goal).into_iter().take(BEST));
+        }
+        let mut finalists: Vec<Finalist> = numbers
+            .into_iter()
+            .map(|number| {
+                let Tried { plan, score, single } = &self.tried[number];
+                Finalist {
+                    name: single.clone().unwrap_or_else(|| format!("plan {number}")),
+                    plan: plan.clone(),
+                    predicted: Some(score.clone()),
+                    is_single: single.is_some(),
+                }
+            })
+            .collect();
+        let bests: Vec<&Plan> = (0..self.log.sets.len())
+            .filter_map(|set| self.best(Goal::Set(set)).first().map(|&i| &self.tried[i].plan))
+            .collect();
+        if let Some(plan) = composed(&self.log, &bests) {
+            finalists.push(Finalist {
+                name: "by kind, as expected".into(),
+                plan,
+                predicted: None,
+                is_single: false,
+            });
+        }
+        finalists
+    }
+}
+
+/// One structure for each kind of rays: `plans` has one for each set. None if it is the same for
+/// all, or if instances would have to be put in order differently for some.
+pub(crate) fn composed(log: &RayLog, plans: &[&Plan]) -> Option<Plan> {
+    let heaviest = (0..plans.len())
+        .max_by(|&a, &b| log.sets[a].weight.total_cmp(&log.sets[b].weight).then(b.cmp(&a)))?;
+    let other = plans[heaviest];
+    let mut by_kind = ByKind::new(other.root.clone());
+    let mut shared = other.shared.clone();
+    let mut differ = false;
+    for (set, plan) in log.sets.iter().zip(plans) {
+        if plan.root == other.root && plan.shared == other.shared {
+            continue;
+        }
+        let root = renamed(plan, &mut shared)?;
+        differ = true;
+        match set.case()? {
+            Case::Camera => by_kind.camera = Some(root),
+            Case::Shadow(_) => by_kind.shadow = Some(root),
+            Case::Reflect => by_kind.reflect = Some(root),
+            Case::Refract => by_kind.refract = Some(root),
+            Case::Diffuse => by_kind.diffuse = Some(root),
+            Case::Custom(number) => {
+                by_kind.custom.insert(number?, root);
+            }
+        }
+    }
+    differ.then(|| Plan { shared, ..Plan::new(Node::ByKind(Box::new(by_kind))) })
+}
+
+/// The root of a plan whose shared subtrees join others: those that are equal are the same, and
+/// those that differ get names of their own.
+fn renamed(plan: &Plan, shared: &mut BTreeMap<String, Node>) -> Option<Node> {
+    for (name, node) in &plan.shared {
+        match shared.get(name) {
+            Some(same) if same == node => {}
+            // Names inside would have to change too: the first that came is kept.
+            Some(_) => return Some(plan.root.clone()),
+            None => {
+                shared.insert(name.clone(), node.clone());
+            }
+        }
+    }
+    Some(plan.root.clone())
+}
