@@ -119,7 +119,7 @@ pub fn optimize(
     let expected = archive.cheapest();
     let finalists: Vec<Finalist> = archive.finalists();
     let mut measured = measure::race(scene, finalists, &timed_log, options, observer)?;
-    let winner = measure::choose(&mut measured);
+    let winner = measure::choose(&measured);
     let mut plan = measured[winner].finalist.plan.clone();
     plan.scene = Some(fingerprint(scene));
     measured[..].swap(0, winner);

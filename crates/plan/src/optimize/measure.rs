@@ -13,6 +13,7 @@ use super::ray_log::{RayLog, RaySet};
 use super::score::Score;
 use super::{Observer, Options};
 use crate::build::build;
+use crate::check::check;
 use crate::error::PlanError;
 use crate::plan::{Node, Plan};
 
@@ -101,6 +102,10 @@ pub(super) fn race(
     let (mut runners, mut out) = (Vec::<Runner>::new(), Vec::new());
     let mut best = Best { mix: f64::INFINITY, nanos: vec![f64::INFINITY; log.sets.len()] };
     for finalist in finalists {
+        // What was put together of others may not go together.
+        if finalist.predicted.is_none() && check(&finalist.plan, scene).is_err() {
+            continue;
+        }
         let runner = enter(scene, finalist, &logs, options, &best)?;
         best.note(&runner.measured);
         runners.push(runner);
@@ -115,6 +120,7 @@ pub(super) fn race(
     }
     run(&mut runners, &logs[1], options, observer);
     if let Some(finalist) = joined(&runners, log)
+        && check(&finalist.plan, scene).is_ok()
         && !observer.stop()
     {
         // Against what is best so far, in turns with it.
@@ -209,7 +215,7 @@ fn joined(runners: &[Runner], log: &RayLog) -> Option<Finalist> {
 }
 
 /// The number of the fastest, or of something simpler that is hardly slower.
-pub(super) fn choose(all: &mut [Measured]) -> usize {
+pub(super) fn choose(all: &[Measured]) -> usize {
     let best = all.iter().map(|one| one.total).fold(f64::INFINITY, f64::min);
     let good = (0..all.len()).filter(|&i| all[i].total <= best * SIMPLER);
     let order = |&i: &usize| (!all[i].finalist.is_single, nodes(&all[i].finalist.plan));

@@ -66,8 +66,14 @@ pub(super) fn singles(
         if some_known && limits.reached(archive.evaluations()) {
             break;
         }
+        // The budget may end within a group.
+        let room =
+            |&(i, _): &(usize, &&str)| !some_known || !limits.reached(archive.evaluations() + i);
         let plans: Vec<(&str, Plan)> = group
             .iter()
+            .enumerate()
+            .take_while(room)
+            .map(|(_, name)| name)
             .map(|&name| Ok((name, single(name, Default::default(), scene)?)))
             .collect::<Result<_, PlanError>>()?;
         let scores: Vec<_> = plans.par_iter().map(|(_, plan)| scorer.score(plan)).collect();

@@ -135,6 +135,14 @@ fn a_budget_of_nothing_gives_the_usual_plan() {
 }
 
 #[test]
+fn no_more_plans_are_tried_than_may_be() {
+    let scene = generate("balls", Some(1)).expect("there is one");
+    for evaluations in [2, 7, 33] {
+        assert_eq!(found(&scene, &options(evaluations)).evaluations, evaluations);
+    }
+}
+
+#[test]
 fn scenes_of_nothing_and_next_to_nothing_are_no_trouble() {
     let mut scene = Scene::new();
     let rays = log(&generate("balls", Some(1)).expect("there is one"), 64);
