@@ -52,6 +52,7 @@ pub fn families(seed: u64) -> Vec<World> {
         side_by_side(&mut numbers, 84),
         connected(&mut numbers, 8),
         soup(&mut numbers, 120),
+        together(&mut numbers, 40),
         instances(&mut numbers, 24),
         moving(&mut numbers, 24),
         unbounded(&mut numbers, 40),
@@ -152,6 +153,23 @@ fn soup(numbers: &mut Numbers, count: usize) -> World {
         .collect();
     let sides = *numbers.pick(&[Sides::Both, Sides::Front, Sides::Back]);
     mesh("loose triangles", Triangles::from_corners(&corners), sides)
+}
+
+/// Several meshes as one, with some triangles in two of them.
+fn together(numbers: &mut Numbers, count: usize) -> World {
+    let corners: Vec<[Vec3A; 3]> = (0..3 * count)
+        .map(|_| {
+            let a = numbers.point();
+            [a, a + numbers.direction() * 0.2, a + numbers.direction() * 0.2]
+        })
+        .collect();
+    let parts = [(7, 0..2 * count), (3, count..2 * count), (11, count / 2..3 * count)];
+    let meshes = parts.map(|(geometry, part)| {
+        TriangleMesh::new(geometry, Arc::new(Triangles::from_corners(&corners[part])))
+    });
+    let mesh = TriangleMesh::joined(&meshes).expect("all are seen from both sides");
+    let aims = corners.iter().flat_map(|&[a, b, c]| [a, (a + b) * 0.5, (a + b + c) / 3.0]);
+    World { name: "meshes together", members: Members::Triangles(mesh), aims: aims.collect() }
 }
 
 fn mesh(name: &'static str, triangles: Triangles, sides: Sides) -> World {

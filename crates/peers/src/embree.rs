@@ -15,7 +15,7 @@ use crate::rays::{HitRecord, Kind, RayRecord};
 use crate::world::{Mesh, World};
 
 use self::flushed::Flushed;
-use self::kernel::{Arguments, NOTHING, RayHit, Scene, Valid};
+use self::kernel::{Arguments, Device, NOTHING, RayHit, Scene, Valid};
 
 /// How much it works on its tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,35 +61,34 @@ pub struct Embree {
     ways: Vec<Way>,
     version: [isize; 3],
     scene: Scene,
-    /// Of this thread, which does it all.
+    /// Of this thread.
     build_time: Duration,
-    build_time_on_all: Duration,
+    /// By the clock on the wall.
+    build_took: Duration,
     bytes: u64,
 }
 
 impl Embree {
-    /// Puts triangles into Embree, which builds with one thread; and, for comparison, with all.
+    /// Puts triangles into Embree, set in each way that is compared with; it builds with one
+    /// thread. One device holds them all.
     ///
     /// # Errors
     /// If the library is not found, or is none, or fails.
-    pub fn new(world: &World, settings: Settings) -> Result<Self, Missing> {
-        let missing = |reason: String| Missing { peer: "Embree".into(), reason };
-        let begun = Self::build(world, settings, 0).map_err(missing)?;
-        let build_time_on_all = begun.build_time_on_all;
-        drop(begun);
-        let one = Self::build(world, settings, 1).map_err(missing)?;
-        Ok(Self { build_time_on_all, ..one })
+    pub fn all(world: &World) -> Result<Vec<Self>, Missing> {
+        let build = || -> Result<Vec<Self>, String> {
+            let device = Rc::new(library::open(1)?);
+            Settings::ALL.iter().map(|&settings| Self::build(world, settings, &device)).collect()
+        };
+        build().map_err(|reason| Missing { peer: "Embree".into(), reason })
     }
 
-    /// Both times are of this build; all threads if 0.
-    fn build(world: &World, settings: Settings, threads: usize) -> Result<Self, String> {
-        let device = Rc::new(library::open(threads)?);
+    fn build(world: &World, settings: Settings, device: &Rc<Device>) -> Result<Self, String> {
         let quality = match settings.quality {
             Quality::Medium => 1,
             Quality::High => 2,
         };
         let flags = if settings.robust { 4 } else { 0 };
-        let new = || Scene::new(&device, quality, flags);
+        let new = || Scene::new(device, quality, flags);
         let (scene, inner) = (new(), world.meshes.iter().map(|_| new()).collect::<Vec<_>>());
         add(&scene, &world.fixed);
         inner.iter().zip(&world.meshes).for_each(|(scene, mesh)| add(scene, mesh));
@@ -103,7 +102,7 @@ impl Embree {
             let _flushed = Flushed::new();
             scene.commit();
         });
-        let build_time_on_all = begun.elapsed();
+        let build_took = begun.elapsed();
         match device.error() {
             0 => {}
             number => return Err(format!("its error number {number}")),
@@ -112,7 +111,7 @@ impl Embree {
         let mut ways = vec![Way::Single];
         ways.extend(device.takes_16().then_some(Way::Packets));
         let version = device.version();
-        Ok(Self { settings, ways, version, scene, build_time, build_time_on_all, bytes })
+        Ok(Self { settings, ways, version, scene, build_time, build_took, bytes })
     }
 }
 
@@ -135,8 +134,9 @@ impl Peer for Embree {
         self.build_time
     }
 
-    fn build_time_on_all(&self) -> Option<Duration> {
-        Some(self.build_time_on_all)
+    fn build_on_all(&self, world: &World) -> Option<Duration> {
+        let device = Rc::new(library::open(0).ok()?);
+        Self::build(world, self.settings, &device).ok().map(|built| built.build_took)
     }
 
     fn bytes(&self) -> u64 {

@@ -2,6 +2,7 @@
 //! turns. Knows nothing of nestray: triangles, rays and answers are plain numbers.
 
 pub mod clock;
+pub mod core;
 pub mod embree;
 mod find;
 pub mod peer;
@@ -19,9 +20,10 @@ pub const NAMES: &[&str] = &["embree", "tinybvh", "obvhs", "parry3d", "bvh"];
 #[must_use]
 pub fn open(name: &str, world: &World) -> Vec<Result<Box<dyn Peer>, Missing>> {
     match name {
-        "embree" => embree::Settings::ALL
-            .map(|settings| embree::Embree::new(world, settings).map(|it| Box::new(it) as _))
-            .into(),
+        "embree" => match embree::Embree::all(world) {
+            Ok(all) => all.into_iter().map(|one| Ok(Box::new(one) as _)).collect(),
+            Err(missing) => vec![Err(missing)],
+        },
         _ => plugin::open(name, world),
     }
 }

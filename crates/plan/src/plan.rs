@@ -58,10 +58,12 @@ pub enum Node {
 
 /// A technique over children.
 ///
-/// What stands in it is given to the technique in the fastest form there is: one mesh alone
-/// triangle by triangle, single shapes alone shape by shape. Among other things a shape is
-/// an object, a mesh of up to [`Nest::TINY`] triangles a list, and a larger mesh an
-/// aggregate of its own by the same technique with the same settings and leaves.
+/// What stands in it is given to the technique in the fastest form there is: meshes alone
+/// triangle by triangle, all together, single shapes alone shape by shape. Among other things a
+/// shape is an object, and the meshes together are an aggregate of their own by the same technique
+/// with the same settings and leaves, or a list if they have no more than [`Nest::TINY`] triangles.
+/// Meshes that are seen from other sides, or have more triangles together than can be named, do
+/// not come together; a mesh in a nest of its own stays alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Nest {

@@ -93,7 +93,7 @@ impl Members {
 /// there are so many that the shared layout could run out of names for its blocks.
 pub(crate) fn are_loose<T: Technique>(mesh: &TriangleMesh) -> bool {
     let most = 4_000_000 / T::COPIES;
-    mesh.triangles().is_soup() || mesh.count() as usize > most
+    mesh.is_soup() || mesh.count() as usize > most
 }
 
 /// An object for each shape.

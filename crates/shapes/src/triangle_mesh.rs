@@ -1,6 +1,7 @@
 //! Triangles, tested eight at a time, without a gap between neighbours.
 
 mod beam;
+mod bodies;
 mod exact;
 mod kernel;
 mod layout;
@@ -28,6 +29,7 @@ use nestray_core::technique::{Leaf, Leaves};
 
 use crate::shape::Sides;
 
+use self::bodies::Bodies;
 use self::part::Part;
 
 pub use self::kernel::{Shared, Soup};
@@ -45,13 +47,12 @@ pub type TriangleSoup = Mesh<Soup>;
 /// are packed, and never changes an answer.
 #[derive(Clone, Debug)]
 pub struct Mesh<L> {
-    geometry: u32,
+    bodies: Bodies,
     sides: Sides,
-    triangles: Arc<Triangles>,
     part: Part,
     blocks: Huge<[u32; 8]>,
-    /// The triangles of all blocks, in order.
-    primitives: Huge<u32>,
+    /// The numbers of the triangles of all blocks, in order.
+    numbers: Huge<u32>,
     layout: PhantomData<L>,
 }
 
@@ -60,15 +61,12 @@ impl<L: Layout> Mesh<L> {
     /// corner that is not finite, or farther out than [`Ray::FARTHEST`], are never hit.
     #[must_use]
     pub fn new(geometry: u32, triangles: Arc<Triangles>) -> Self {
-        Self {
-            geometry,
-            sides: Sides::Both,
-            triangles,
-            part: Part::default(),
-            blocks: Huge::default(),
-            primitives: Huge::default(),
-            layout: PhantomData,
-        }
+        Self::over(Bodies::one(geometry, triangles), Sides::Both, Part::default())
+    }
+
+    fn over(bodies: Bodies, sides: Sides, part: Part) -> Self {
+        let (blocks, numbers) = (Huge::default(), Huge::default());
+        Self { bodies, sides, part, blocks, numbers, layout: PhantomData }
     }
 
     /// The same mesh seen from some sides only.
@@ -77,21 +75,16 @@ impl<L: Layout> Mesh<L> {
         Self { sides, ..self }
     }
 
-    /// The data it is made of; of a [`part`](Self::part) that of the whole.
+    /// The triangles of a packed leaf, by geometry and primitive; for reports and viewers.
     #[must_use]
-    pub fn triangles(&self) -> &Arc<Triangles> {
-        &self.triangles
-    }
-
-    /// The primitives of a packed leaf; for reports and viewers.
-    #[must_use]
-    pub fn primitives_in(&self, leaf: Leaf) -> Vec<u32> {
-        let mut primitives = Vec::new();
+    pub fn named_in(&self, leaf: Leaf) -> Vec<[u32; 2]> {
+        let mut names = Vec::new();
         for block in self.chain(leaf) {
             let first = self.blocks[L::place(block)][6] as usize;
-            primitives.extend_from_slice(&self.primitives[first..][..L::len(block)]);
+            let numbers = &self.numbers[first..][..L::len(block)];
+            names.extend(numbers.iter().map(|&number| self.bodies.name(number)));
         }
-        primitives
+        names
     }
 
     /// The blocks of a leaf.
@@ -102,12 +95,26 @@ impl<L: Layout> Mesh<L> {
         })
     }
 
+    /// The mesh that a child is a triangle of, and which it is there.
+    #[inline]
+    fn find(&self, child: u32) -> (&Triangles, u32) {
+        self.bodies.find(self.part.number(child))
+    }
+
+    /// Offers a hit of a triangle.
+    #[inline(always)]
+    fn offer(&self, hit: &mut Hit, t: f32, uv: [f32; 2], number: u32) -> bool {
+        let [geometry, primitive] = self.bodies.name(number);
+        hit.offer(t, uv, geometry, primitive)
+    }
+
     /// One triangle in the first lane, by the same arithmetic.
-    fn alone(&self, primitive: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
-        if primitive == probe.skip || !self.triangles.is_usable(primitive) {
+    fn alone(&self, number: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
+        let (triangles, primitive) = self.bodies.find(number);
+        if number == probe.skip || !triangles.is_usable(primitive) {
             return None;
         }
-        let corners = self.triangles.corners(primitive);
+        let corners = triangles.corners(primitive);
         let lane = |corner: usize, axis: usize| SCALAR.splat(corners[corner][axis]);
         let shear = &probe.shear;
         let corners = [0, 1, 2].map(|c| {
@@ -115,7 +122,7 @@ impl<L: Layout> Mesh<L> {
             shear.apply(SCALAR, axis(0), axis(1), axis(2))
         });
         let block = layout::Block { corners, shared: None, lanes: 1, first: 0, next: None };
-        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| primitive)?;
+        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| number)?;
         Some(hits.lane(SCALAR, 0))
     }
 }
@@ -133,31 +140,35 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn bounds(&self, child: u32) -> Aabb {
-        self.triangles.bounds(self.part.primitive(child))
+        let (triangles, primitive) = self.find(child);
+        triangles.bounds(primitive)
     }
 
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
-        self.triangles.clipped(self.part.primitive(child), cell)
+        let (triangles, primitive) = self.find(child);
+        triangles.clipped(primitive, cell)
     }
 
     fn along(&self, child: u32, direction: Vec3A) -> [f32; 2] {
-        self.triangles.along(self.part.primitive(child), direction)
+        let (triangles, primitive) = self.find(child);
+        triangles.along(primitive, direction)
     }
 
     fn meets(&self, child: u32, rays: &Beam) -> Option<[f32; 2]> {
-        let bounds = self.bounds(child);
-        beam::meets(&self.triangles.corners(self.part.primitive(child)), &bounds, rays)
+        let (triangles, primitive) = self.find(child);
+        beam::meets(&triangles.corners(primitive), &triangles.bounds(primitive), rays)
     }
 
     fn blocks(&self, child: u32, rays: &Beam) -> Option<f32> {
-        let child = self.part.primitive(child);
+        let (triangles, primitive) = self.find(child);
         // What has one side only lets rays through that come the other way.
-        let blocks = self.sides == Sides::Both && self.triangles.is_usable(child);
-        if blocks { beam::blocks(&self.triangles.corners(child), rays) } else { None }
+        let blocks = self.sides == Sides::Both && triangles.is_usable(primitive);
+        if blocks { beam::blocks(&triangles.corners(primitive), rays) } else { None }
     }
 
     fn facing(&self, child: u32, rays: &Beam) -> Facing {
-        beam::facing(&self.triangles.corners(self.part.primitive(child)), rays)
+        let (triangles, primitive) = self.find(child);
+        beam::facing(&triangles.corners(primitive), rays)
     }
 
     fn cost(&self, _child: u32, model: &CostModel) -> Cost {
@@ -165,13 +176,13 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn closest_hit(&self, child: u32, ray: &Ray, hit: &mut Hit, _scratch: &mut Scratch) -> bool {
-        let primitive = self.part.primitive(child);
-        self.alone(primitive, &self.probe(ray), hit.t)
-            .is_some_and(|(t, uv)| hit.offer(t, uv, self.geometry, primitive))
+        let number = self.part.number(child);
+        self.alone(number, &self.probe(ray), hit.t)
+            .is_some_and(|(t, uv)| self.offer(hit, t, uv, number))
     }
 
     fn any_hit(&self, child: u32, ray: &Ray, _scratch: &mut Scratch) -> bool {
-        self.alone(self.part.primitive(child), &self.probe(ray), ray.t_max()).is_some()
+        self.alone(self.part.number(child), &self.probe(ray), ray.t_max()).is_some()
     }
 
     fn all_hits(&self, child: u32, ray: &Ray, hits: &mut Vec<Hit>, scratch: &mut Scratch) {
@@ -182,27 +193,32 @@ impl<L: Layout> Children for Mesh<L> {
     }
 
     fn surface(&self, _ray: &Ray, hit: &Hit) -> Option<Surface> {
-        self.child_called(hit.geometry, hit.primitive, hit.path)
-            .map(|_| self.triangles.surface(hit.primitive, [hit.u, hit.v]))
+        let child = self.child_called([hit.geometry, hit.primitive], hit.path)?;
+        let (triangles, primitive) = self.find(child);
+        Some(triangles.surface(primitive, [hit.u, hit.v]))
     }
 
     fn child_of(&self, source: &Source) -> Option<u32> {
-        self.child_called(source.geometry, source.primitive, source.path)
+        self.child_called([source.geometry, source.primitive], source.path)
     }
 
     fn pack(&mut self, leaves: &Leaves, names: &Names) -> Vec<Leaf> {
-        let primitive = |child: u32| self.part.primitive(names.child(child));
-        let packed = layout::pack::<L>(&self.triangles, &primitive, leaves);
-        (self.blocks, self.primitives) = (packed.blocks, packed.primitives);
+        let number = |child: u32| self.part.number(names.child(child));
+        let packed = layout::pack::<L>(&self.bodies, &number, leaves);
+        (self.blocks, self.numbers) = (packed.blocks, packed.numbers);
         packed.leaves
     }
 
     #[inline(always)]
     fn probe(&self, ray: &Ray) -> Probe {
         let source = ray.source();
-        let is_mine = source.geometry == self.geometry && source.path == InstancePath::NONE;
+        let is_near = source.geometry != Hit::NOTHING && source.path == InstancePath::NONE;
         // Of another part it is no child of this one either.
-        let skip = if is_mine { source.primitive } else { Hit::NOTHING };
+        let skip = if is_near {
+            self.bodies.number([source.geometry, source.primitive]).unwrap_or(Hit::NOTHING)
+        } else {
+            Hit::NOTHING
+        };
         Probe { shear: Shear::new(ray), skip, sides: self.sides }
     }
 
@@ -217,11 +233,11 @@ impl<L: Layout> Children for Mesh<L> {
         let mut found = false;
         loop {
             let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
-            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, hit.t, primitive) {
-                // Primitives ascend in a block, so the first lane wins a tie.
+            let number = |lane: usize| self.numbers[block.first as usize + lane];
+            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, hit.t, number) {
+                // Numbers ascend in a block, so the first lane wins a tie.
                 let (lane, t, uv) = hits.nearest(simd);
-                found |= hit.offer(t, uv, self.geometry, primitive(lane));
+                found |= self.offer(hit, t, uv, number(lane));
             }
             let Some(next) = block.next else { return found };
             leaf = next;
@@ -232,8 +248,8 @@ impl<L: Layout> Children for Mesh<L> {
     fn any_in_leaf<S: Simd>(&self, simd: S, mut leaf: Leaf, probe: &Probe, t_max: f32) -> bool {
         loop {
             let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
-            if test::hits::<S, L>(simd, probe, &block, t_max, primitive).is_some() {
+            let number = |lane: usize| self.numbers[block.first as usize + lane];
+            if test::hits::<S, L>(simd, probe, &block, t_max, number).is_some() {
                 return true;
             }
             let Some(next) = block.next else { return false };
@@ -252,12 +268,12 @@ impl<L: Layout> Children for Mesh<L> {
     ) {
         loop {
             let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let primitive = |lane: usize| self.primitives[block.first as usize + lane];
-            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, t_max, primitive) {
+            let number = |lane: usize| self.numbers[block.first as usize + lane];
+            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, t_max, number) {
                 for lane in (0..8).filter(|lane| hits.mask >> lane & 1 == 1) {
                     let (t, uv) = hits.lane(simd, lane);
                     let mut hit = Hit::none(t_max);
-                    if hit.offer(t, uv, self.geometry, primitive(lane)) {
+                    if self.offer(&mut hit, t, uv, number(lane)) {
                         out.push(hit);
                     }
                 }
@@ -278,6 +294,6 @@ impl<L: Layout> Children for Mesh<L> {
 
     fn packed_bytes(&self) -> u64 {
         let packed = size_of_val::<[[u32; 8]]>(&self.blocks);
-        (packed + size_of_val::<[u32]>(&self.primitives) + self.part.bytes()) as u64
+        (packed + size_of_val::<[u32]>(&self.numbers) + self.part.bytes()) as u64
     }
 }

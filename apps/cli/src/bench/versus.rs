@@ -11,6 +11,7 @@ use std::path::Path;
 use nestray::io::load::LoadOptions;
 use nestray::plan::error::nearest;
 use nestray::render::watch::Watch as _;
+use nestray_peers::core::OneCore;
 use nestray_peers::peer::{Missing, Peer};
 use nestray_peers::world::World;
 use nestray_peers::{NAMES, open};
@@ -42,6 +43,7 @@ pub(super) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
     };
     let ours = plans.iter().map(|plan| Ours::new(plan, &scene)).collect::<Result<Vec<_>, _>>()?;
     let mut missing = Vec::new();
+    let one_core = OneCore::new();
     let peers = peers(&args.vs, &world, &mut missing)?;
     missing.iter().for_each(|missing| progress.note(&missing.to_string()));
     let all = ours.iter().map(|ours| ours as &dyn Peer);
@@ -57,7 +59,8 @@ pub(super) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
         watching.advanced(i, sets.len() as u64, 0);
         report.add(set, rounds::run(&contenders, set, args.rounds)?);
     }
-    drop(watching);
+    drop((watching, one_core));
+    report.build_on_all(&contenders, &world);
     for path in &args.output {
         let text = if is_json(path) { report.json() } else { report.text() };
         output::write(path, text.as_bytes())?;

@@ -157,7 +157,8 @@ impl Device {
         // Never unloaded: its worker threads outlive its devices.
         let library = ManuallyDrop::new(library);
         let functions = Functions::find(&library).map_err(|error| error.to_string())?;
-        let config = CString::new(format!("threads={threads}")).expect("no zeros in it");
+        let config = format!("threads={threads},set_affinity=0");
+        let config = CString::new(config).expect("no zeros in it");
         // SAFETY: a string with a zero at its end.
         let device = unsafe { (functions.rtcNewDevice)(config.as_ptr()) };
         if device.is_null() {

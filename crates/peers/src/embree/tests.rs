@@ -25,14 +25,14 @@ fn every_way_gives_the_same_answers() {
     };
     let mut rays = vec![ray(0.25, f32::INFINITY), ray(10.25, f32::INFINITY)];
     rays.extend((0..17).map(|i| ray(0.25, if i % 2 == 0 { 1.9 } else { 2.1 })));
-    for settings in Settings::ALL {
-        let embree = match Embree::new(&world(), settings) {
-            Ok(embree) => embree,
-            Err(missing) => {
-                eprintln!("skipped: {missing}");
-                return;
-            }
-        };
+    let all = match Embree::all(&world()) {
+        Ok(all) => all,
+        Err(missing) => {
+            eprintln!("skipped: {missing}");
+            return;
+        }
+    };
+    for embree in all {
         assert!(embree.bytes() > 0);
         for &way in embree.ways() {
             let mut hits = vec![HitRecord::MISS; rays.len()];

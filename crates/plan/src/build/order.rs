@@ -76,6 +76,7 @@ impl Order {
 
 /// A technique over parts, in the fastest form there is for them; see [`Nest`].
 pub(super) fn aggregate(order: &Order, parts: Vec<Part>) -> Whole {
+    let parts = joined(parts);
     let shapes = parts.iter().all(|part| matches!(part, Part::Shape(_)));
     if let [Part::Mesh(mesh)] = &parts[..] {
         return order.build(Members::Triangles(mesh.clone()));
@@ -100,7 +101,7 @@ pub(super) fn aggregate(order: &Order, parts: Vec<Part>) -> Whole {
         Part::Shape(single) => {
             single.shape.into_object(single.geometry, single.primitive, single.sides)
         }
-        Part::Mesh(mesh) if mesh.triangles().count() <= Nest::TINY => {
+        Part::Mesh(mesh) if mesh.count() <= Nest::TINY => {
             Order::list().build(Members::Triangles(mesh)).object
         }
         Part::Mesh(mesh) => order.build(Members::Triangles(mesh)).object,
@@ -115,4 +116,31 @@ pub(super) fn aggregate(order: &Order, parts: Vec<Part>) -> Whole {
         }
         None => order.build(Members::Objects(objects)),
     }
+}
+
+/// The same parts with all meshes as one that are seen from the same sides, where the first of
+/// them stood, unless there are too many triangles for one.
+fn joined(parts: Vec<Part>) -> Vec<Part> {
+    let mut joined = Vec::with_capacity(parts.len());
+    let mut meshes: Vec<(usize, Vec<TriangleMesh>)> = Vec::new();
+    for part in parts {
+        let Part::Mesh(mesh) = part else {
+            joined.push(part);
+            continue;
+        };
+        match meshes.iter_mut().find(|(_, alike)| alike[0].sides() == mesh.sides()) {
+            Some((_, alike)) => alike.push(mesh),
+            None => {
+                meshes.push((joined.len(), vec![mesh.clone()]));
+                joined.push(Part::Mesh(mesh));
+            }
+        }
+    }
+    for (place, alike) in meshes {
+        match TriangleMesh::joined(&alike) {
+            Some(mesh) => joined[place] = Part::Mesh(mesh),
+            None => joined.extend(alike.into_iter().skip(1).map(Part::Mesh)),
+        }
+    }
+    joined
 }

@@ -95,7 +95,7 @@ fn parts(number: usize, geometry: &Geometry) -> Vec<Part> {
 
 /// A mesh within a solid, which is asked for all hits and has to answer wherever it stands.
 fn operand(mesh: TriangleMesh) -> DynObject {
-    let small = mesh.triangles().count() <= Nest::TINY;
+    let small = mesh.count() <= Nest::TINY;
     let order = if small { Order::list() } else { Order::by(AUTO) };
     order.build(Members::Triangles(mesh)).object
 }

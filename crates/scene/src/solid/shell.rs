@@ -29,10 +29,10 @@ impl Shell {
     #[must_use]
     pub fn new(mesh: TriangleMesh) -> Self {
         let bounds = |run: std::ops::Range<u32>| {
-            let boxes = run.map(|triangle| mesh.triangles().bounds(triangle));
+            let boxes = run.map(|triangle| mesh.bounds(triangle));
             boxes.filter(|bounds| !bounds.is_empty()).fold(Aabb::EMPTY, Aabb::join)
         };
-        let count = mesh.triangles().count();
+        let count = mesh.count();
         let end = |from: u32| from.saturating_add(RUN).min(count);
         let runs: Vec<Aabb> =
             (0..count).step_by(RUN as usize).map(|from| bounds(from..end(from))).collect();

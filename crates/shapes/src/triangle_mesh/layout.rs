@@ -8,6 +8,7 @@ use nestray_core::simd::{Level, Simd};
 use nestray_core::technique::{Leaf, Leaves};
 use rayon::prelude::*;
 
+use super::bodies::Bodies;
 use super::test::Shear;
 use super::triangles::Triangles;
 
@@ -35,12 +36,11 @@ pub trait Layout: Clone + Send + Sync + 'static {
     /// How many lines a leaf can tell apart.
     const MOST_LINES: usize;
 
-    /// Writes one block of as many of `faces` as fit; says how many did, and the name of
-    /// the block.
+    /// Writes one block of as many triangles as fit, given by their corners; says how many did,
+    /// and the name of the block.
     fn write<S: Simd>(
         simd: S,
-        vertices: &[[f32; 3]],
-        faces: &[[u32; 3]],
+        triangles: &[[[f32; 3]; 3]],
         first: u32,
         blocks: &mut Vec<[u32; 8]>,
     ) -> (usize, Leaf);
@@ -68,7 +68,7 @@ pub(super) const LAST: u32 = u32::MAX;
 
 pub(super) struct Packed {
     pub(super) blocks: Huge<[u32; 8]>,
-    pub(super) primitives: Huge<u32>,
+    pub(super) numbers: Huge<u32>,
     pub(super) leaves: Vec<Leaf>,
 }
 
@@ -76,14 +76,15 @@ pub(super) struct Packed {
 #[derive(Default)]
 struct Piece {
     blocks: Vec<[u32; 8]>,
-    primitives: Vec<u32>,
+    numbers: Vec<u32>,
     leaves: Vec<Leaf>,
 }
 
-/// Packs all leaves, each as a chain of blocks, primitives ascending, by all cores.
+/// Packs all leaves, each as a chain of blocks, triangles ascending, by all cores; `number` says
+/// which a child is.
 pub(super) fn pack<L: Layout>(
-    triangles: &Triangles,
-    primitive: &(impl Fn(u32) -> u32 + Sync),
+    bodies: &Bodies,
+    number: &(impl Fn(u32) -> u32 + Sync),
     leaves: &Leaves,
 ) -> Packed {
     /// Leaves that one thread packs.
@@ -91,25 +92,25 @@ pub(super) fn pack<L: Layout>(
     let mut pieces: Vec<Piece> = (0..leaves.count().div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
-            let numbers = chunk * CHUNK..((chunk + 1) * CHUNK).min(leaves.count());
+            let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(leaves.count());
             dispatch!(Level::best(), simd =>
-                Piece::new::<_, L>(simd, triangles, primitive, leaves, numbers))
+                Piece::new::<_, L>(simd, bodies, number, leaves, range))
         })
         .collect();
     let (mut begin, mut lines, mut first) = (Vec::new(), 0, 0);
     for piece in &pieces {
         begin.push((lines as u32, first as u32));
-        (lines, first) = (lines + piece.blocks.len(), first + piece.primitives.len());
+        (lines, first) = (lines + piece.blocks.len(), first + piece.numbers.len());
     }
     assert!(lines <= L::MOST_LINES, "no more packed triangles per mesh than a leaf can name");
     let places = pieces.par_iter_mut().zip(begin);
     places.for_each(|(piece, (line, first))| piece.place::<L>(line, first));
     let blocks: Vec<&[[u32; 8]]> = pieces.iter().map(|piece| &piece.blocks[..]).collect();
-    let primitives: Vec<&[u32]> = pieces.iter().map(|piece| &piece.primitives[..]).collect();
+    let numbers: Vec<&[u32]> = pieces.iter().map(|piece| &piece.numbers[..]).collect();
     Packed {
         // A full set of lanes may be read past the last block.
         blocks: Huge::joined(&blocks, 256),
-        primitives: Huge::joined(&primitives, 32),
+        numbers: Huge::joined(&numbers, 32),
         leaves: pieces.iter().flat_map(|piece| piece.leaves.iter().copied()).collect(),
     }
 }
@@ -118,27 +119,31 @@ impl Piece {
     #[inline(always)]
     fn new<S: Simd, L: Layout>(
         simd: S,
-        triangles: &Triangles,
-        primitive: &impl Fn(u32) -> u32,
+        bodies: &Bodies,
+        number: &impl Fn(u32) -> u32,
         leaves: &Leaves,
-        numbers: Range<usize>,
+        range: Range<usize>,
     ) -> Self {
         let mut piece = Self::default();
-        for number in numbers.clone() {
-            let first = piece.primitives.len();
-            piece.primitives.extend(leaves.of(number).iter().map(|&child| primitive(child)));
-            piece.primitives[first..].sort_unstable();
+        for leaf in range.clone() {
+            let first = piece.numbers.len();
+            piece.numbers.extend(leaves.of(leaf).iter().map(|&child| number(child)));
+            piece.numbers[first..].sort_unstable();
         }
         // All at once: they come from anywhere, and none waits for the one before.
-        let faces: Vec<[u32; 3]> =
-            piece.primitives.iter().map(|&i| triangles.faces[i as usize]).collect();
+        let faces: Vec<(&Triangles, [u32; 3])> =
+            piece.numbers.iter().map(|&i| bodies.face(i)).collect();
+        let corners: Vec<[[f32; 3]; 3]> = faces
+            .iter()
+            .map(|(of, face)| face.map(|vertex| of.positions[vertex as usize]))
+            .collect();
         let mut first = 0;
-        for number in numbers {
-            let end = first + leaves.of(number).len();
+        for leaf in range {
+            let end = first + leaves.of(leaf).len();
             let mut previous = None;
             while first < end {
-                let (vertices, rest) = (&triangles.positions, &faces[first..end]);
-                let (count, leaf) = L::write(simd, vertices, rest, first as u32, &mut piece.blocks);
+                let rest = &corners[first..end];
+                let (count, leaf) = L::write(simd, rest, first as u32, &mut piece.blocks);
                 match previous {
                     None => piece.leaves.push(leaf),
                     Some(before) => piece.blocks[L::place(before)][7] = leaf.0,

@@ -4,42 +4,49 @@ use std::sync::Arc;
 
 use nestray_core::hit::InstancePath;
 
-use super::{Layout, Mesh, Triangles};
+use super::bodies::Bodies;
+use super::{Layout, Mesh};
+use crate::shape::Sides;
 
-/// The children of a mesh: all triangles of its data, or some.
+/// The children of a mesh: all its triangles, or some.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Part {
-    /// Primitive numbers in ascending order; none if all are there, each under its own.
+    /// Numbers of triangles in ascending order; none if all are there, each under its own.
     chosen: Option<Arc<[u32]>>,
 }
 
 impl Part {
     /// Some children of this one, in any order.
     pub(super) fn part(&self, children: &[u32]) -> Self {
-        let mut chosen: Vec<u32> = children.iter().map(|&child| self.primitive(child)).collect();
+        let mut chosen: Vec<u32> = children.iter().map(|&child| self.number(child)).collect();
         chosen.sort_unstable();
         chosen.dedup();
         Self { chosen: Some(chosen.into()) }
     }
 
     /// How many there are.
-    pub(super) fn count(&self, of: &Triangles) -> u32 {
+    pub(super) fn count(&self, of: &Bodies) -> u32 {
         self.chosen.as_ref().map_or_else(|| of.count(), |chosen| chosen.len() as u32)
     }
 
-    /// What a child is called in hits.
+    /// Which triangle a child is.
     #[inline]
-    pub(super) fn primitive(&self, child: u32) -> u32 {
+    pub(super) fn number(&self, child: u32) -> u32 {
         self.chosen.as_ref().map_or(child, |chosen| chosen[child as usize])
     }
 
-    /// The child that is called `primitive`, if it is there.
+    /// The child that is a triangle, if it is there.
     #[inline]
-    pub(super) fn child(&self, primitive: u32) -> Option<u32> {
+    pub(super) fn child(&self, number: u32) -> Option<u32> {
         match &self.chosen {
-            None => Some(primitive),
-            Some(chosen) => chosen.binary_search(&primitive).ok().map(|child| child as u32),
+            None => Some(number),
+            Some(chosen) => chosen.binary_search(&number).ok().map(|child| child as u32),
         }
+    }
+
+    /// Whether some may be missing.
+    pub(super) fn is_some(&self) -> bool {
+        self.chosen.is_some()
     }
 
     /// Memory in use.
@@ -49,34 +56,61 @@ impl Part {
 }
 
 impl<L: Layout> Mesh<L> {
+    /// Most triangles of meshes that are [`joined`](Self::joined): their leaves can be named,
+    /// however often a technique names each.
+    pub const MOST_JOINED: u32 = 1 << 24;
+
+    /// The triangles of several meshes as one family, not yet packed. Each still reports its own
+    /// geometry and primitive. None if they cannot be one: there are none, two are of the same
+    /// geometry or seen from other sides, one is a [`part`](Self::part), or there are more than
+    /// [`MOST_JOINED`](Self::MOST_JOINED) triangles.
+    #[must_use]
+    pub fn joined(meshes: &[Self]) -> Option<Self> {
+        let sides = meshes.first()?.sides;
+        if meshes.iter().any(|mesh| mesh.sides != sides || mesh.part.is_some()) {
+            return None;
+        }
+        let bodies = Bodies::joined(meshes.iter().map(|mesh| &mesh.bodies), Self::MOST_JOINED)?;
+        Some(Self::over(bodies, sides, Part::default()))
+    }
+
     /// The same mesh, not yet packed, to be laid out in another way.
     #[must_use]
     pub fn packed_otherwise<M: Layout>(&self) -> Mesh<M> {
-        let mesh = Mesh::new(self.geometry, Arc::clone(&self.triangles));
-        Mesh { part: self.part.clone(), ..mesh.seen_from(self.sides) }
+        Mesh::over(self.bodies.clone(), self.sides, self.part.clone())
     }
 
     /// A mesh of some of its children, not yet packed, that report the same primitives. It shares
     /// the data, and takes room for its own triangles only.
     #[must_use]
     pub fn part(&self, children: &[u32]) -> Self {
-        Self { part: self.part.part(children), ..self.packed_otherwise() }
+        Self::over(self.bodies.clone(), self.sides, self.part.part(children))
     }
 
     /// How many triangles are in it.
     #[must_use]
     pub fn count(&self) -> u32 {
-        self.part.count(&self.triangles)
+        self.part.count(&self.bodies)
+    }
+
+    /// Whether triangles have few vertices in common; see [`Triangles::is_soup`]. Of a part,
+    /// whether those of the whole do.
+    #[must_use]
+    pub fn is_soup(&self) -> bool {
+        self.bodies.are_soup()
+    }
+
+    /// From which sides it is seen.
+    #[must_use]
+    pub fn sides(&self) -> Sides {
+        self.sides
     }
 
     /// The child that a hit or a ray names, if it is one.
-    pub(super) fn child_called(
-        &self,
-        geometry: u32,
-        primitive: u32,
-        path: InstancePath,
-    ) -> Option<u32> {
-        let is_mine = geometry == self.geometry && path == InstancePath::NONE;
-        if is_mine { self.part.child(primitive) } else { None }
+    pub(super) fn child_called(&self, name: [u32; 2], path: InstancePath) -> Option<u32> {
+        if path != InstancePath::NONE {
+            return None;
+        }
+        self.part.child(self.bodies.number(name)?)
     }
 }

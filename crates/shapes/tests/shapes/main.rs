@@ -5,6 +5,7 @@ mod beams;
 mod broken;
 mod gaps;
 mod hits;
+mod joined;
 mod leaving;
 mod numbers;
 mod parts;

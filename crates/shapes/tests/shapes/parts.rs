@@ -39,7 +39,7 @@ fn sheet(n: u32) -> Arc<Triangles> {
 }
 
 /// Puts all usable children into leaves of a few.
-fn packed<L>(mut mesh: Mesh<L>) -> (Mesh<L>, Vec<Leaf>)
+pub(super) fn packed<L>(mut mesh: Mesh<L>) -> (Mesh<L>, Vec<Leaf>)
 where
     Mesh<L>: Children,
 {
@@ -182,6 +182,6 @@ fn leaves_are_packed_alike_by_any_number_of_threads() {
     check(&mesh, 20_000);
     check(&mesh.packed_otherwise::<Soup>(), 20_000);
     let (mesh, leaves) = packed(mesh);
-    let all: Vec<u32> = leaves.iter().flat_map(|&leaf| mesh.primitives_in(leaf)).collect();
-    assert_eq!(all, (0..20_000).collect::<Vec<_>>());
+    let all: Vec<[u32; 2]> = leaves.iter().flat_map(|&leaf| mesh.named_in(leaf)).collect();
+    assert_eq!(all, (0..20_000).map(|i| [4, i]).collect::<Vec<_>>());
 }

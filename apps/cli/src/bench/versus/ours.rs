@@ -8,6 +8,7 @@ use nestray::prelude::{DynObject, Hit, Object as _, Ray, RayKind, Scene, Scratch
 use nestray_peers::clock::timed;
 use nestray_peers::peer::{Peer, Way};
 use nestray_peers::rays::{HitRecord, Kind, RayRecord};
+use nestray_peers::world::World;
 
 use crate::bench::sets;
 use crate::errors::Failure;
@@ -81,7 +82,7 @@ impl Peer for Ours {
         self.build_time
     }
 
-    fn build_time_on_all(&self) -> Option<Duration> {
+    fn build_on_all(&self, _world: &World) -> Option<Duration> {
         Some(self.build_time_on_all)
     }
 
