@@ -1,5 +1,6 @@
 //! What is said of libraries that shot the same rays.
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use nestray::plan::describe::bytes;
@@ -69,12 +70,10 @@ impl Report {
 
     /// Builds everything once more on all threads; nothing is to be timed afterwards.
     pub(super) fn build_on_all(&mut self, contenders: &[Contender<'_>], world: &World) {
-        for at in 0..self.rows.len() {
-            let before = self.rows[..at].iter().find(|row| row.peer == self.rows[at].peer);
-            self.rows[at].build_seconds_on_all = match before {
-                Some(row) => row.build_seconds_on_all,
-                None => contenders[at].peer.build_on_all(world).map(|time| time.as_secs_f64()),
-            };
+        let mut built: HashMap<String, Option<f64>> = HashMap::new();
+        for (row, one) in self.rows.iter_mut().zip(contenders) {
+            let build = || one.peer.build_on_all(world).map(|time| time.as_secs_f64());
+            row.build_seconds_on_all = *built.entry(row.peer.clone()).or_insert_with(build);
         }
     }
 
