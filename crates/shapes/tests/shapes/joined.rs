@@ -42,7 +42,7 @@ fn rays(meshes: &[TriangleMesh]) -> Vec<Ray> {
             let (from, to) = (Vec3A::from_array(point(6.0)), Vec3A::from_array(point(6.0)));
             let from = from + Vec3A::Z * 8.0;
             let geometry = [2, 5, 9, 4, Hit::NOTHING][i % 5];
-            let most = meshes.iter().map(|mesh| Children::count(mesh)).max().unwrap_or(1);
+            let most = meshes.iter().map(Children::count).max().unwrap_or(1);
             let primitive = i as u32 % (most + 3);
             let source = Source { geometry, primitive, path: InstancePath::NONE };
             Ray::new(from, to - from, RayKind::Camera).leaving(source)
