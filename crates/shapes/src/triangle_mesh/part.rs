@@ -93,7 +93,7 @@ impl<L: Layout> Mesh<L> {
         self.part.count(&self.bodies)
     }
 
-    /// Whether triangles have few vertices in common; see [`Triangles::is_soup`]. Of a part,
+    /// Whether triangles have few vertices in common; see [`Triangles::is_soup`](super::Triangles::is_soup). Of a part,
     /// whether those of the whole do.
     #[must_use]
     pub fn is_soup(&self) -> bool {
