@@ -5,6 +5,7 @@ mod divide;
 mod leaf;
 mod members;
 mod method;
+mod packets;
 mod single;
 
 use std::sync::OnceLock;
@@ -204,7 +205,7 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
         if let Some(index) = &self.index {
             let out = (hits, &mut [][..]);
             dispatch!(scratch.level, simd =>
-                self.barrel::<_, false>(simd, index, rays, out, scratch));
+                self.batch::<_, false>(simd, index, rays, out, scratch));
         }
     }
 
@@ -222,7 +223,7 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
         if let Some(index) = &self.index {
             let out = (&mut [][..], blocked);
             dispatch!(scratch.level, simd =>
-                self.barrel::<_, true>(simd, index, rays, out, scratch));
+                self.batch::<_, true>(simd, index, rays, out, scratch));
         }
     }
 

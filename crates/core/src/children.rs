@@ -8,6 +8,7 @@ use crate::cost::{Cost, CostModel};
 use crate::hit::Hit;
 use crate::names::Names;
 use crate::object::Object;
+use crate::packet::Packet;
 use crate::ray::{Ray, Source};
 use crate::scratch::Scratch;
 use crate::simd::Simd;
@@ -29,6 +30,9 @@ pub trait Children: Send + Sync {
 
     /// What is worth working out once per ray.
     type Probe: Copy + Default + Send;
+
+    /// What is worth working out once per packet of rays.
+    type Probes: Default;
 
     /// How many there are.
     fn count(&self) -> u32;
@@ -166,6 +170,47 @@ pub trait Children: Send + Sync {
         unreachable!("not packed")
     }
 
+    /// Works out the probes of a packet, made of `rays`.
+    fn probe_all<S: Simd>(
+        &self,
+        _simd: S,
+        _packet: &Packet,
+        _rays: &[Ray],
+        _probes: &mut Self::Probes,
+    ) {
+    }
+
+    /// [`Object::closest_hit`] for a packed leaf and those rays of a packet that are in `mask`;
+    /// their limits shrink. `hits` are those from before the packet: new ones are
+    /// [told](Self::tell_hits) in the end.
+    fn closest_in_leaf_by<S: Simd>(
+        &self,
+        _simd: S,
+        _leaf: Leaf,
+        _mask: u32,
+        _packet: &mut Packet,
+        _probes: &mut Self::Probes,
+        _hits: &[Hit],
+    ) {
+        unreachable!("not packed")
+    }
+
+    /// Replaces the hits of those rays of a packet that have hit something.
+    fn tell_hits(&self, _packet: &Packet, _probes: &Self::Probes, _hits: &mut [Hit]) {}
+
+    /// [`Object::any_hit`] for a packed leaf and those rays of a packet that are in `mask`: those
+    /// that hit something, whose limits become −∞.
+    fn any_in_leaf_by<S: Simd>(
+        &self,
+        _simd: S,
+        _leaf: Leaf,
+        _mask: u32,
+        _packet: &mut Packet,
+        _probes: &mut Self::Probes,
+    ) -> u32 {
+        unreachable!("not packed")
+    }
+
     /// How many members a packed leaf holds; for counters and reports.
     fn leaf_len(&self, _leaf: Leaf) -> u32 {
         unreachable!("not packed")
@@ -187,6 +232,7 @@ pub trait Children: Send + Sync {
 
 impl<O: Object> Children for Vec<O> {
     type Probe = ();
+    type Probes = ();
 
     fn count(&self) -> u32 {
         u32::try_from(self.len()).expect("at most u32::MAX children")

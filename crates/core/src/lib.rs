@@ -16,8 +16,6 @@ pub mod aabb;
 
 pub mod beam;
 
-pub mod bundle;
-
 pub mod object;
 
 pub mod children;
@@ -44,6 +42,8 @@ pub mod lazy;
 pub mod opened;
 
 pub mod one_by_one;
+
+pub mod packet;
 
 pub mod cost;
 

@@ -57,6 +57,8 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn eq(self, a: Self::F32, b: Self::F32) -> u32;
     /// The smallest of the lanes in `mask`, which are not NaN; `∞` if there are none.
     fn least(self, mask: u32, a: Self::F32) -> f32;
+    /// The lanes of `a` in `mask`, those of `b` elsewhere.
+    fn choose(self, mask: u32, a: Self::F32, b: Self::F32) -> Self::F32;
     /// Lane `k` is entry `index[k]` (below 16) of `low` and `high` end to end.
     fn pick(self, low: Self::F32, high: Self::F32, index: &[u8; 8]) -> Self::F32;
 
@@ -192,6 +194,10 @@ impl<const COUNTS: bool> Simd for Plain<COUNTS> {
     #[inline(always)]
     fn least(self, mask: u32, a: [f32; 8]) -> f32 {
         (0..8).filter(|i| mask >> i & 1 == 1).fold(f32::INFINITY, |least, i| least.min(a[i]))
+    }
+    #[inline(always)]
+    fn choose(self, mask: u32, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        std::array::from_fn(|i| if mask >> i & 1 == 1 { a[i] } else { b[i] })
     }
     #[inline(always)]
     fn pick(self, low: [f32; 8], high: [f32; 8], index: &[u8; 8]) -> [f32; 8] {

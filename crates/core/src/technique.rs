@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use crate::aim::Aims;
 use crate::family::Family;
 
-pub use self::index::{Asks, Every, Expected, Index, Query, Repeats, Visit, Walk};
+pub use self::index::{Asks, Every, Expected, Index, Lead, Led, Query, Repeats, Visit, Walk};
 pub use self::step::{Leaf, Leaves, Step};
 
 /// An acceleration technique with its settings, as written in a plan: a way of putting

@@ -8,6 +8,7 @@ mod layout;
 mod part;
 mod surface;
 mod test;
+mod together;
 mod triangles;
 
 use std::marker::PhantomData;
@@ -21,6 +22,7 @@ use nestray_core::cost::{Cost, CostModel};
 use nestray_core::hit::{Hit, InstancePath};
 use nestray_core::huge::Huge;
 use nestray_core::names::Names;
+use nestray_core::packet::Packet;
 use nestray_core::ray::{Ray, Source};
 use nestray_core::scratch::Scratch;
 use nestray_core::simd::{SCALAR, Scalar, Simd};
@@ -35,6 +37,7 @@ use self::part::Part;
 pub use self::kernel::{Shared, Soup};
 pub use self::layout::Layout;
 pub use self::test::{Probe, Shear};
+pub use self::together::Probes;
 pub use self::triangles::{MeshError, Triangles};
 
 /// Triangles that share their vertices in packed leaves.
@@ -130,6 +133,7 @@ impl<L: Layout> Mesh<L> {
 impl<L: Layout> Children for Mesh<L> {
     const PACKED: bool = true;
     type Probe = Probe;
+    type Probes = Probes;
 
     fn count(&self) -> u32 {
         self.count()
@@ -281,6 +285,41 @@ impl<L: Layout> Children for Mesh<L> {
             let Some(next) = block.next else { return };
             leaf = next;
         }
+    }
+
+    #[inline(always)]
+    fn probe_all<S: Simd>(&self, simd: S, packet: &Packet, rays: &[Ray], probes: &mut Probes) {
+        self.set_probes(simd, packet, rays, probes);
+    }
+
+    #[inline(always)]
+    fn closest_in_leaf_by<S: Simd>(
+        &self,
+        simd: S,
+        leaf: Leaf,
+        mask: u32,
+        packet: &mut Packet,
+        probes: &mut Probes,
+        hits: &[Hit],
+    ) {
+        self.closest_by(simd, leaf, mask, packet, probes, hits);
+    }
+
+    #[inline(always)]
+    fn tell_hits(&self, packet: &Packet, probes: &Probes, hits: &mut [Hit]) {
+        self.tell(packet, probes, hits);
+    }
+
+    #[inline(always)]
+    fn any_in_leaf_by<S: Simd>(
+        &self,
+        simd: S,
+        leaf: Leaf,
+        mask: u32,
+        packet: &mut Packet,
+        probes: &mut Probes,
+    ) -> u32 {
+        self.any_by(simd, leaf, mask, packet, probes)
     }
 
     fn leaf_len(&self, leaf: Leaf) -> u32 {

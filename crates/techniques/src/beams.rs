@@ -19,10 +19,13 @@ mod origins;
 mod path;
 
 use nestray_core::aabb::Aabb;
-use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
+use nestray_core::packet::Packet;
+use nestray_core::ray::RayKind;
 use nestray_core::simd::Simd;
-use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Walk};
+use nestray_core::technique::{
+    Expected, Index, Lead, Leaf, Leaves, Led, Query, Repeats, Step, Walk,
+};
 use nestray_core::trail::{self, Trail};
 
 use self::cells::{Cells, Maker, Next, Place};
@@ -184,7 +187,7 @@ impl Beams {
 impl Index for Beams {
     const REPEATS: Repeats = Repeats::Never;
     const TELLS: bool = true;
-    const GATHERS: bool = true;
+    const LEADS: bool = true;
     type Cursor = Cursor;
 
     /// Of a random ray nothing is known, mostly: it goes through the tree. If there are lists for
@@ -225,29 +228,24 @@ impl Index for Beams {
     }
 
     #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        simd: S,
-        bundle: &Bundle,
-        trail: &mut Trail,
-        entrance: &mut Entrance,
-    ) -> bool {
-        !self.guide.may_know(bundle.kind) && self.forest.tree.gather(simd, bundle, trail, entrance)
+    fn leads(&self, kind: RayKind, packed: bool) -> bool {
+        !self.guide.may_know(kind) && self.forest.tree.leads(kind, packed)
     }
 
     #[inline(always)]
-    fn start_at<S: Simd, Q: Query>(
+    fn lead_in<S: Simd>(&self, simd: S, packet: &mut Packet, trail: &mut Trail) -> Option<Lead> {
+        self.forest.tree.lead_in(simd, packet, trail)
+    }
+
+    #[inline(always)]
+    fn lead_on<S: Simd>(
         &self,
         simd: S,
-        walk: &mut Walk<'_>,
-        limit: f32,
-        entrance: &Entrance,
-    ) -> (Cursor, Step) {
-        if self.guide.may_know(walk.ray.kind()) {
-            return (self.before(walk), Step::onward(LOOK_UP));
-        }
-        let (tree, at) = self.forest.tree.start_at::<S, Q>(simd, walk, limit, entrance);
-        (Cursor { tree, search: Search::default() }, at)
+        packet: &Packet,
+        trail: &mut Trail,
+        lead: &mut Lead,
+    ) -> Led {
+        self.forest.tree.lead_on(simd, packet, trail, lead)
     }
 
     #[inline(always)]

@@ -7,16 +7,19 @@ mod binary;
 mod collapse;
 mod emit;
 mod forests;
-mod gather;
 mod kernel;
+mod led;
 mod parts;
 
 use nestray_core::aabb::{Aabb, Clip};
-use nestray_core::bundle::{Bundle, Entrance};
 use nestray_core::family::Family;
 use nestray_core::huge::Huge;
+use nestray_core::packet::Packet;
+use nestray_core::ray::RayKind;
 use nestray_core::simd::Simd;
-use nestray_core::technique::{Expected, Index, Leaf, Leaves, Query, Repeats, Step, Visit, Walk};
+use nestray_core::technique::{
+    Expected, Index, Lead, Leaf, Leaves, Led, Query, Repeats, Step, Visit, Walk,
+};
 use nestray_core::trail::{self, Top, Trail};
 
 use crate::union::Standing;
@@ -24,7 +27,6 @@ use crate::union::Standing;
 pub use self::binary::{Binary, Contents, Outlook, Pair, area, in_halves};
 pub(crate) use self::collapse::MAX_DEPTH;
 pub(crate) use self::forests::Forests;
-pub(crate) use self::gather::Pencil;
 pub use self::kernel::Cursor;
 
 /// A tree of boxes, eight to a node.
@@ -149,7 +151,7 @@ const SPLIT_SLACK: f32 = 3.0 * Clip::SLACK;
 impl Index for WideTree {
     const REPEATS: Repeats = Repeats::ByRule;
     const COPIES: usize = 1;
-    const GATHERS: bool = true;
+    const LEADS: bool = true;
     type Cursor = Cursor;
 
     /// A node is visited as often as its box is met, its surface to the root's [Goldsmith 87]. A
@@ -200,31 +202,24 @@ impl Index for WideTree {
     }
 
     #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        simd: S,
-        bundle: &Bundle,
-        trail: &mut Trail,
-        entrance: &mut Entrance,
-    ) -> bool {
-        self.gather_nodes(simd, bundle, trail, entrance)
+    fn leads(&self, _kind: RayKind, packed: bool) -> bool {
+        packed || !self.is_split
     }
 
     #[inline(always)]
-    fn start_at<S: Simd, Q: Query>(
+    fn lead_in<S: Simd>(&self, simd: S, packet: &mut Packet, trail: &mut Trail) -> Option<Lead> {
+        self.packet_in(simd, packet, trail)
+    }
+
+    #[inline(always)]
+    fn lead_on<S: Simd>(
         &self,
         simd: S,
-        walk: &mut Walk<'_>,
-        limit: f32,
-        entrance: &Entrance,
-    ) -> (Cursor, Step) {
-        let mut cursor = self.cursor(walk);
-        for block in entrance.blocks().iter().rev() {
-            let (mask, enter) = cursor.clip(simd, &block.rows, limit);
-            trail::put_off_all(simd, walk.trail, &mut cursor.top, mask, enter, &block.words);
-        }
-        let at = self.resume::<S, Q>(simd, walk, &mut cursor, limit);
-        (cursor, at)
+        packet: &Packet,
+        trail: &mut Trail,
+        lead: &mut Lead,
+    ) -> Led {
+        self.packet_on(simd, packet, trail, lead)
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@
 
 use crate::accel::Accel;
 use crate::accel::leaf::This;
-use crate::bundle::{self, Bundle, Entrance};
+use crate::accel::packets::Served;
 use crate::children::Children;
 use crate::hit::Hit;
 use crate::mailbox::Stamp;
@@ -88,20 +88,10 @@ struct InFlight<Cursor, Probe> {
     lists: Lists,
     /// The next ray to let in.
     next: usize,
-    bundle: Bundled,
-}
-
-/// The bundle that the next ray belongs to.
-struct Bundled {
-    /// The first ray behind it.
-    end: usize,
-    /// Where its rays start, if they do not start as any ray.
-    gathered: bool,
-    entrance: Entrance,
 }
 
 /// Where answers go: hits, or whether something is hit.
-type Answers<'a> = (&'a mut [Hit], &'a mut [bool]);
+pub(super) type Answers<'a> = (&'a mut [Hit], &'a mut [bool]);
 
 impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
     #[inline(always)]
@@ -119,44 +109,29 @@ impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
             lists.free.push_if(slot as u32, true);
         }
         let trails = [const { Trail::new() }; RAYS];
-        let bundle = Bundled { end: 0, gathered: false, entrance: Entrance::EMPTY };
-        Self { slots: [empty; RAYS], trails, lists, next: 0, bundle }
-    }
-}
-
-impl Bundled {
-    /// Makes a bundle of the first of `rest`, which begins with ray `first`.
-    #[inline(always)]
-    fn open<S: Simd, I: Index>(
-        &mut self,
-        simd: S,
-        index: &I,
-        rest: &[Ray],
-        first: usize,
-        trail: &mut Trail,
-    ) {
-        let rays = &rest[..rest.len().min(bundle::RAYS)];
-        self.end = first + rays.len();
-        self.gathered = I::GATHERS
-            && Bundle::of(rays)
-                .is_some_and(|bundle| index.gather(simd, &bundle, trail, &mut self.entrance));
+        Self { slots: [empty; RAYS], trails, lists, next: 0 }
     }
 }
 
 impl<I: Index, C: Children> Accel<I, C> {
-    /// Traces all `rays`; fills the hits, or whether something is hit if `ANY`.
+    /// Traces all `rays` that are not `served`; fills the hits, or whether something is hit if
+    /// `ANY`.
     #[inline(always)]
     pub(super) fn barrel<S: Simd, const ANY: bool>(
         &self,
         simd: S,
         index: &I,
         rays: &[Ray],
-        mut answers: Answers<'_>,
+        served: &Served,
+        answers: &mut Answers<'_>,
         scratch: &mut Scratch,
     ) {
+        if served.skip(0) >= rays.len() {
+            return;
+        }
         let mut flight = InFlight::<I::Cursor, C::Probe>::new(rays.len());
         loop {
-            self.let_in::<S, ANY>(simd, index, rays, &answers, (&mut flight, scratch));
+            self.let_in::<S, ANY>(simd, index, (rays, served), answers, (&mut flight, scratch));
             if flight.lists.onward.count + flight.lists.leaf.count == 0 {
                 if flight.lists.free.count == 0 {
                     return;
@@ -166,9 +141,9 @@ impl<I: Index, C: Children> Accel<I, C> {
             while flight.lists.onward.count > FEW
                 || (flight.lists.onward.count > 0 && flight.lists.leaf.count == 0)
             {
-                self.step_all::<S, ANY>(simd, index, rays, &mut answers, &mut flight);
+                self.step_all::<S, ANY>(simd, index, rays, answers, &mut flight);
             }
-            self.serve_leaves::<S, ANY>(simd, index, rays, &mut answers, (&mut flight, scratch));
+            self.serve_leaves::<S, ANY>(simd, index, rays, answers, (&mut flight, scratch));
         }
     }
 
@@ -178,36 +153,24 @@ impl<I: Index, C: Children> Accel<I, C> {
         &self,
         simd: S,
         index: &I,
-        rays: &[Ray],
+        (rays, served): (&[Ray], &Served),
         (hits, blocked): &Answers<'_>,
         (flight, scratch): (&mut InFlight<I::Cursor, C::Probe>, &mut Scratch),
     ) {
-        let InFlight { slots, trails, lists, next, bundle } = flight;
+        let InFlight { slots, trails, lists, next } = flight;
         for i in 0..lists.free.drain() {
             let id = lists.free.get(i);
             let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
             scratch.mailbox.close(slot.stamp);
             slot.stamp = Stamp::NONE;
-            loop {
-                while ANY && *next < rays.len() && blocked[*next] {
-                    *next += 1;
-                }
-                if *next < bundle.end || *next >= rays.len() {
-                    break;
-                }
-                bundle.open(simd, index, &rays[*next..], *next, trail);
-                if bundle.gathered && bundle.entrance.count() == 0 {
-                    *next = bundle.end;
-                }
+            *next = served.skip(*next);
+            while ANY && *next < rays.len() && blocked[*next] {
+                *next = served.skip(*next + 1);
             }
             let Some(ray) = rays.get(*next) else { continue };
             slot.limit = if ANY { ray.t_max() } else { hits[*next].t };
             let mut walk = Walk { ray, trail, family: &self.members };
-            (slot.cursor, slot.at) = if bundle.gathered {
-                index.start_at::<S, Asks<ANY, true>>(simd, &mut walk, slot.limit, &bundle.entrance)
-            } else {
-                index.start(simd, &mut walk, slot.limit)
-            };
+            (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
             slot.probe = self.members.children.probe(ray);
             slot.ray = *next as u32;
             *next += 1;

@@ -2,12 +2,12 @@
 
 use std::fmt::Debug;
 
-use crate::bundle::{Bundle, Entrance};
 use crate::family::Family;
-use crate::ray::Ray;
+use crate::packet::{Packet, Pencil};
+use crate::ray::{Ray, RayKind};
 use crate::simd::Simd;
 use crate::technique::{Leaf, Leaves, Step};
-use crate::trail::Trail;
+use crate::trail::{Top, Trail};
 
 /// What a technique makes: an index over boxes that yields, for a ray, the
 /// children worth testing, roughly nearest first.
@@ -37,8 +37,8 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// Whether [`step`](Self::step) may say [`Step::HIT`], to a [`Query`] for any hit.
     const TELLS: bool = false;
 
-    /// Whether it can look up where a whole bundle of rays starts ([`gather`](Self::gather)).
-    const GATHERS: bool = false;
+    /// Whether it can lead packets of rays ([`lead_in`](Self::lead_in)).
+    const LEADS: bool = false;
 
     /// Where one ray stands, but for what it has put off ([`Trail`]): plain numbers, best
     /// within 48 bytes, so that it stays in registers or in one cache line.
@@ -57,29 +57,30 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// Places a ray at the beginning.
     fn start<S: Simd>(&self, simd: S, walk: &mut Walk<'_>, limit: f32) -> (Self::Cursor, Step);
 
-    /// Looks up where the rays of a bundle start. False if the technique cannot, or it is not
-    /// worth it: then they [`start`](Self::start) as any ray does.
+    /// Whether it leads packets of rays of this kind. `packed`, children may be shown to a ray
+    /// more than once.
     #[inline(always)]
-    fn gather<S: Simd>(
-        &self,
-        _simd: S,
-        _bundle: &Bundle,
-        _trail: &mut Trail,
-        _entrance: &mut Entrance,
-    ) -> bool {
-        false
+    fn leads(&self, _kind: RayKind, _packed: bool) -> bool {
+        Self::LEADS
     }
 
-    /// Places a ray of a bundle that was [`gather`](Self::gather)ed at the beginning.
+    /// Places a packet at the beginning; none if its rays do better apart.
     #[inline(always)]
-    fn start_at<S: Simd, Q: Query>(
+    fn lead_in<S: Simd>(&self, _simd: S, _packet: &mut Packet, _trail: &mut Trail) -> Option<Lead> {
+        None
+    }
+
+    /// Leads a packet to the next leaf that any of its rays may meet within its limit. As a ray
+    /// that goes alone, each must be shown all of them in the end.
+    #[inline(always)]
+    fn lead_on<S: Simd>(
         &self,
-        simd: S,
-        walk: &mut Walk<'_>,
-        limit: f32,
-        _entrance: &Entrance,
-    ) -> (Self::Cursor, Step) {
-        self.start(simd, walk, limit)
+        _simd: S,
+        _packet: &Packet,
+        _trail: &mut Trail,
+        _lead: &mut Lead,
+    ) -> Led {
+        Led::Apart
     }
 
     /// Moves a ray that stands at the node or cell `at` by one. It may be shown any leaf that
@@ -119,6 +120,28 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     fn listed(&self, _cursor: &Self::Cursor, _leaf: Leaf) -> &[u32] {
         &[]
     }
+}
+
+/// Where a packet stands, but for what it has put off.
+#[derive(Clone, Copy, Debug)]
+pub struct Lead {
+    /// The beam of its rays.
+    pub pencil: Pencil,
+    /// What it has put off.
+    pub top: Top,
+    /// How many moves are left until its rays do better apart.
+    pub left: u32,
+}
+
+/// What a packet comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Led {
+    /// A leaf, and the rays that may meet it.
+    Leaf(Leaf, u32),
+    /// Nothing any more.
+    Done,
+    /// Too much: its rays do better apart, from the beginning.
+    Apart,
 }
 
 /// What surrounds a ray at every move.

@@ -48,6 +48,15 @@ pub trait Layout: Clone + Send + Sync + 'static {
     /// Loads a block and moves it into the space of the ray.
     fn load<S: Simd>(simd: S, blocks: &Huge<[u32; 8]>, leaf: Leaf, shear: &Shear) -> Block<S>;
 
+    /// How many vertices the block called `leaf` has.
+    fn vertices(leaf: Leaf) -> usize;
+
+    /// Where the vertices of a block are, one after the other.
+    fn places<'a>(blocks: &'a Huge<[u32; 8]>, leaf: Leaf) -> impl Iterator<Item = [f32; 3]> + 'a;
+
+    /// Which vertices the corners of a triangle of a block are, given its first line.
+    fn corners(header: &[u32; 8], leaf: Leaf, triangle: usize) -> [usize; 3];
+
     /// Depths of the three corners.
     fn depths<S: Simd>(simd: S, block: &Block<S>) -> [S::F32; 3];
 

@@ -5,6 +5,7 @@
 //! Plain multiplies and adds, never fused: the same bits on every machine.
 
 use nestray_core::hit::Hit;
+use nestray_core::packet::longest;
 use nestray_core::ray::Ray;
 use nestray_core::simd::Simd;
 
@@ -26,11 +27,11 @@ pub struct Probe {
 /// The space in which a ray runs along z, from 0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shear {
-    origin: [f32; 3],
+    pub(super) origin: [f32; 3],
     /// `dir.x / dir.z`, `dir.y / dir.z`, `1 / dir.z`, where z is the longest.
-    slope: [f32; 3],
-    t_min: f32,
-    axes: [u8; 3],
+    pub(super) slope: [f32; 3],
+    pub(super) t_min: f32,
+    pub(super) axes: [u8; 3],
 }
 
 impl Shear {
@@ -38,21 +39,33 @@ impl Shear {
     #[inline(always)]
     #[must_use]
     pub fn new(ray: &Ray) -> Self {
-        let size = ray.dir().abs().to_array();
-        let z = if size[0] > size[1] {
-            if size[0] > size[2] { 0 } else { 2 }
-        } else {
-            1 + usize::from(size[1] <= size[2])
-        };
-        let x = [1, 2, 0][z];
-        let y = [2, 0, 1][z];
         let (origin, dir) = (ray.origin().to_array(), ray.dir().to_array());
+        let [x, y, z] = axes(longest(dir));
         let inverse = 1.0 / dir[z];
         Self {
             origin: [origin[x], origin[y], origin[z]],
             slope: [dir[x] * inverse, dir[y] * inverse, inverse],
             t_min: ray.t_min(),
             axes: [x as u8, y as u8, z as u8],
+        }
+    }
+
+    /// Lanes that are all this ray.
+    #[inline(always)]
+    fn in_all<S: Simd>(&self, simd: S, limit: f32) -> Rays<S> {
+        let [x, y, z] = self.origin;
+        let moves = |slope: f32| u32::from(slope.abs() > STILL) * 255;
+        Rays {
+            slope: [
+                simd.splat(self.slope[0]),
+                simd.splat(self.slope[1]),
+                simd.splat(self.slope[2]),
+            ],
+            moves: [moves(self.slope[0]), moves(self.slope[1])],
+            reach: simd.splat(2.0 * x.abs().max(y.abs()).max(z.abs())),
+            t_min: simd.splat(self.t_min),
+            limit: simd.splat(limit),
+            is_forward: self.slope[2] > 0.0,
         }
     }
 
@@ -74,14 +87,39 @@ impl Shear {
     }
 }
 
-/// Where eight triangles are hit.
+/// The axes that are x, y and z where a ray runs fastest along axis `z`.
+#[inline(always)]
+pub(super) fn axes(z: usize) -> [usize; 3] {
+    [[1, 2, 0][z], [2, 0, 1][z], z]
+}
+
+/// Largest slope of a ray that does not move along an axis.
+pub(super) const STILL: f32 = 1e-9;
+
+/// The rays in eight lanes: the same in all where eight triangles are tested with one ray, or
+/// eight that are tested with one triangle.
+#[derive(Clone, Copy)]
+pub(super) struct Rays<S: Simd> {
+    /// As of a [`Shear`].
+    pub(super) slope: [S::F32; 3],
+    /// Lanes in which the ray moves along x, along y.
+    pub(super) moves: [u32; 2],
+    /// Twice the largest coordinate of the origin.
+    pub(super) reach: S::F32,
+    pub(super) t_min: S::F32,
+    pub(super) limit: S::F32,
+    /// Whether z grows along the rays.
+    pub(super) is_forward: bool,
+}
+
+/// Where the lanes are hit.
 #[derive(Clone, Copy)]
 pub(super) struct Hits<S: Simd> {
-    /// The lanes that are, at least one.
+    /// The lanes that are.
     pub(super) mask: u32,
-    t: S::F32,
+    pub(super) t: S::F32,
     /// Weights of the second and third corner.
-    weights: [S::F32; 2],
+    pub(super) weights: [S::F32; 2],
 }
 
 impl<S: Simd> Hits<S> {
@@ -93,7 +131,7 @@ impl<S: Simd> Hits<S> {
         (simd.array(self.t)[lane & 7], uv)
     }
 
-    /// The nearest lane, the first of equals.
+    /// The nearest lane, the first of equals; there is one at least.
     #[inline(always)]
     pub(super) fn nearest(&self, simd: S) -> (usize, f32, [f32; 2]) {
         let least = simd.least(self.mask, self.t);
@@ -106,26 +144,53 @@ impl<S: Simd> Hits<S> {
 /// Twice the area, seen along the ray, that a triangle must have: less has no inverse.
 const LEAST: f32 = 1e-37;
 
-/// Tests the triangles of a block; `primitive` says which one is in a lane.
+/// Tests the triangles of a block; `number` says which one is in a lane.
 #[inline(always)]
 pub(super) fn hits<S: Simd, L: Layout>(
     simd: S,
     probe: &Probe,
     block: &Block<S>,
     limit: f32,
-    primitive: impl Fn(usize) -> u32,
+    number: impl Fn(usize) -> u32,
 ) -> Option<Hits<S>> {
     let Probe { shear, skip, sides } = probe;
-    let [a, b, c] = block.corners;
-    let edge =
-        |a: [S::F32; 3], b: [S::F32; 3]| simd.sub(simd.mul(a[0], b[1]), simd.mul(a[1], b[0]));
-    let zero = simd.splat(0.0);
-    let mut edges = [edge(c, b), edge(a, c), edge(b, a)];
-    let mut mask = inside(simd, edges) & block.lanes;
+    let (mask, edges) = crossed(simd, block);
     if mask == 0 {
         return None;
     }
+    let rays = shear.in_all(simd, limit);
+    let mut hits = settled::<S, L>(simd, &rays, *sides, block, (mask, edges));
+    if *skip != Hit::NOTHING {
+        let hit = hits.mask;
+        for lane in (0..8).filter(|lane| hit >> lane & 1 == 1) {
+            hits.mask &= !(u32::from(number(lane) == *skip) << lane);
+        }
+    }
+    (hits.mask != 0).then_some(hits)
+}
+
+/// Lanes in which the ray seems to pass through the triangle, and the edge functions.
+#[inline(always)]
+pub(super) fn crossed<S: Simd>(simd: S, block: &Block<S>) -> (u32, [S::F32; 3]) {
+    let [a, b, c] = block.corners;
+    let edge =
+        |a: [S::F32; 3], b: [S::F32; 3]| simd.sub(simd.mul(a[0], b[1]), simd.mul(a[1], b[0]));
+    let edges = [edge(c, b), edge(a, c), edge(b, a)];
+    (inside(simd, edges) & block.lanes, edges)
+}
+
+/// What becomes of lanes that are [`crossed`].
+#[inline(always)]
+pub(super) fn settled<S: Simd, L: Layout>(
+    simd: S,
+    rays: &Rays<S>,
+    sides: Sides,
+    block: &Block<S>,
+    (mut mask, mut edges): (u32, [S::F32; 3]),
+) -> Hits<S> {
+    let [a, b, c] = block.corners;
     // A zero may have been rounded to: decide such lanes with doubles. Other signs are right.
+    let zero = simd.splat(0.0);
     let [u, v, w] = edges;
     let unclear = (simd.eq(u, zero) | simd.eq(v, zero) | simd.eq(w, zero)) & mask;
     if unclear != 0 {
@@ -139,25 +204,19 @@ pub(super) fn hits<S: Simd, L: Layout>(
     let sum = simd.add(simd.add(u, v), w);
     // A triangle seen exactly from its side has no hit, and no weights.
     mask &= !(simd.le(simd.splat(-LEAST), sum) & simd.le(sum, simd.splat(LEAST)));
-    if *sides != Sides::Both {
+    if sides != Sides::Both {
         // The sum is twice the area, positive where the corners run clockwise along z.
-        let front = if shear.slope[2] > 0.0 { simd.le(zero, sum) } else { simd.le(sum, zero) };
-        mask &= if *sides == Sides::Front { front } else { !front };
+        let front = if rays.is_forward { simd.le(zero, sum) } else { simd.le(sum, zero) };
+        mask &= if sides == Sides::Front { front } else { !front };
     }
     let depths = L::depths(simd, block);
-    let weights = weighed(simd, shear, block, (edges, sum), depths, mask);
+    let weights = weighed(simd, rays, block, (edges, sum), depths, mask);
     let sum = simd.add(simd.mul(weights[0], depths[0]), simd.mul(weights[1], depths[1]));
     let depth =
-        within_bounds(simd, shear, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
-    let t = simd.mul(depth, simd.splat(shear.slope[2]));
-    mask &= simd.le(simd.splat(shear.t_min), t) & simd.le(t, simd.splat(limit));
-    if *skip != Hit::NOTHING {
-        let hit = mask;
-        for lane in (0..8).filter(|lane| hit >> lane & 1 == 1) {
-            mask &= !(u32::from(primitive(lane) == *skip) << lane);
-        }
-    }
-    (mask != 0).then_some(Hits { mask, t, weights: [weights[1], weights[2]] })
+        within_bounds(simd, rays, block, depths, simd.add(sum, simd.mul(weights[2], depths[2])));
+    let t = simd.mul(depth, rays.slope[2]);
+    mask &= simd.le(rays.t_min, t) & simd.le(t, rays.limit);
+    Hits { mask, t, weights: [weights[1], weights[2]] }
 }
 
 /// Lanes where all three edge functions have the same sign, or are zero.
@@ -173,7 +232,7 @@ fn inside<S: Simd>(simd: S, [u, v, w]: [S::F32; 3]) -> u32 {
 #[inline(always)]
 fn weighed<S: Simd>(
     simd: S,
-    shear: &Shear,
+    rays: &Rays<S>,
     block: &Block<S>,
     ([u, v, w], sum): ([S::F32; 3], S::F32),
     depths: [S::F32; 3],
@@ -183,7 +242,7 @@ fn weighed<S: Simd>(
     // Divided before they are summed: they are at most 1, so that the depth lies between those of
     // the corners, and nothing overflows.
     let weights = [simd.mul(u, inverse), simd.mul(v, inverse), simd.mul(w, inverse)];
-    let unsure = mask & !are_sure(simd, shear, block, depths, sum);
+    let unsure = mask & !are_sure(simd, rays, block, depths, sum);
     if unsure == 0 {
         return weights;
     }
@@ -204,7 +263,7 @@ fn weighed<S: Simd>(
 #[inline(always)]
 fn are_sure<S: Simd>(
     simd: S,
-    shear: &Shear,
+    rays: &Rays<S>,
     block: &Block<S>,
     [az, bz, cz]: [S::F32; 3],
     sum: S::F32,
@@ -218,9 +277,7 @@ fn are_sure<S: Simd>(
     let (near, far) = (simd.min(simd.min(az, bz), cz), simd.max(simd.max(az, bz), cz));
     // Edge functions are off by 12 half-ulps of `wide²` together; 24 of the largest coordinate
     // are allowed, of which this is at most a quarter.
-    let origin = shear.origin;
-    let reach = origin[0].abs().max(origin[1].abs()).max(origin[2].abs());
-    let reach = simd.add(simd.max(size(near), size(far)), simd.splat(2.0 * reach));
+    let reach = simd.add(simd.max(size(near), size(far)), rays.reach);
     let off = simd.mul(simd.sub(far, near), simd.mul(wide, wide));
     simd.le(off, simd.mul(reach, size(sum)))
 }
@@ -230,7 +287,7 @@ fn are_sure<S: Simd>(
 #[inline(always)]
 fn within_bounds<S: Simd>(
     simd: S,
-    shear: &Shear,
+    rays: &Rays<S>,
     block: &Block<S>,
     depths: [S::F32; 3],
     depth: S::F32,
@@ -239,17 +296,33 @@ fn within_bounds<S: Simd>(
     let mut enter = simd.min(simd.min(az, bz), cz);
     let mut leave = simd.max(simd.max(az, bz), cz);
     // Along an axis that the ray hardly moves along, it does not leave the box.
-    for axis in (0..2).filter(|&axis| shear.slope[axis].abs() > 1e-9) {
+    for axis in (0..2).filter(|&axis| rays.moves[axis] != 0) {
         // Unsheared again, relative to the origin of the ray.
-        let slope = simd.splat(shear.slope[axis]);
+        let slope = rays.slope[axis];
         let [a, b, c] = block.corners;
         let at = |corner: [S::F32; 3], z: S::F32| simd.add(corner[axis], simd.mul(slope, z));
         let (a, b, c) = (at(a, az), at(b, bz), at(c, cz));
-        let inverse = simd.splat(1.0 / shear.slope[axis]);
+        let inverse = simd.div(simd.splat(1.0), slope);
         let low = simd.mul(simd.min(simd.min(a, b), c), inverse);
         let high = simd.mul(simd.max(simd.max(a, b), c), inverse);
-        enter = simd.max(simd.min(low, high), enter);
-        leave = simd.min(simd.max(low, high), leave);
+        let (mut near, mut far) = (simd.min(low, high), simd.max(low, high));
+        if rays.moves[axis] != 255 {
+            near = kept(simd, near, rays.moves[axis], f32::NEG_INFINITY);
+            far = kept(simd, far, rays.moves[axis], f32::INFINITY);
+        }
+        enter = simd.max(near, enter);
+        leave = simd.min(far, leave);
     }
     simd.min(simd.max(depth, enter), leave)
+}
+
+/// The lanes of `mask`, and `other` in the rest.
+#[cold]
+#[inline(never)]
+fn kept<S: Simd>(simd: S, lanes: S::F32, mask: u32, other: f32) -> S::F32 {
+    let mut lanes = simd.array(lanes);
+    for (i, lane) in lanes.iter_mut().enumerate() {
+        *lane = if mask >> i & 1 == 1 { *lane } else { other };
+    }
+    simd.load(&lanes)
 }

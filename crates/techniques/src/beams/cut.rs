@@ -7,10 +7,11 @@ use nestray_core::aabb::Aabb;
 use nestray_core::beam::Beam;
 use nestray_core::dispatch;
 use nestray_core::family::Family;
+use nestray_core::packet::Pencil;
 use nestray_core::simd::{Level, Simd};
 use nestray_core::technique::{Leaves, Step};
 
-use crate::wide_tree::{Pencil, WideTree};
+use crate::wide_tree::WideTree;
 
 /// A tree, and the children in its leaves.
 #[derive(Debug)]
@@ -203,7 +204,7 @@ impl Forest {
     fn look_into(&self, pencil: &Pencil, node: u32, mut show: impl FnMut(Part)) {
         let rows = self.tree.rows(Step::onward(node));
         let (mask, begin) = dispatch!(Level::best(), simd => {
-            let (mask, _, begin) = pencil.meets(simd, rows);
+            let (mask, begin) = pencil.meets(simd, rows);
             (mask, simd.array(begin))
         });
         for lane in (0..8).filter(|lane| mask >> lane & 1 == 1) {

@@ -1,0 +1,243 @@
+//! Neighbouring rays that go together.
+
+use crate::accel::Accel;
+use crate::accel::barrel::Answers;
+use crate::children::Children;
+use crate::hit::Hit;
+use crate::packet::{self, Packet};
+use crate::ray::Ray;
+use crate::scratch::Scratch;
+use crate::simd::Simd;
+use crate::technique::{Index, Leaf, Led};
+use crate::trail::Trail;
+
+/// Most rays that are looked through for packets at once.
+pub(super) const WINDOW: usize = 4096;
+/// Fewest rays that are handed on as a batch.
+const FEWEST: u32 = 4;
+
+/// Which packets of a window of rays need nothing more.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Served([u64; WINDOW / packet::RAYS / 64]);
+
+impl Served {
+    pub(super) const NONE: Self = Self([0; WINDOW / packet::RAYS / 64]);
+
+    fn add(&mut self, ray: usize) {
+        let packet = ray / packet::RAYS;
+        self.0[packet / 64] |= 1 << (packet % 64);
+    }
+
+    /// The first ray from `ray` on, or behind all, whose packet is not served.
+    #[inline(always)]
+    pub(super) fn skip(&self, mut ray: usize) -> usize {
+        while ray < WINDOW && self.0[ray / packet::RAYS / 64] >> (ray / packet::RAYS % 64) & 1 == 1
+        {
+            ray = (ray / packet::RAYS + 1) * packet::RAYS;
+        }
+        ray
+    }
+}
+
+/// The rays in a mask, by number.
+fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = mask.trailing_zeros() as usize;
+        mask &= mask.wrapping_sub(1);
+        (lane < packet::RAYS).then_some(lane)
+    })
+}
+
+/// Some rays and their answers so far, next to each other.
+struct Few {
+    rays: [Ray; packet::RAYS],
+    hits: [Hit; packet::RAYS],
+    count: usize,
+}
+
+impl Few {
+    #[inline(always)]
+    fn of(mask: u32, rays: &[Ray], hit: impl Fn(usize) -> Hit) -> Self {
+        let none = Hit::none(0.0);
+        let mut few = Self { rays: [rays[0]; packet::RAYS], hits: [none; packet::RAYS], count: 0 };
+        for lane in lanes(mask) {
+            few.rays[few.count % packet::RAYS] = rays[lane];
+            few.hits[few.count % packet::RAYS] = hit(lane);
+            few.count += 1;
+        }
+        few
+    }
+}
+
+impl<I: Index, C: Children> Accel<I, C> {
+    /// Traces all `rays`, neighbours together; fills the hits, or whether something is hit if
+    /// `ANY`.
+    #[inline(always)]
+    pub(super) fn batch<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &I,
+        rays: &[Ray],
+        (hits, blocked): Answers<'_>,
+        scratch: &mut Scratch,
+    ) {
+        for first in (0..rays.len()).step_by(WINDOW) {
+            let rays = &rays[first..rays.len().min(first + WINDOW)];
+            let mut answers: Answers<'_> = if ANY {
+                (&mut [], &mut blocked[first..][..rays.len()])
+            } else {
+                (&mut hits[first..][..rays.len()], &mut [])
+            };
+            let served = if I::LEADS {
+                self.packets::<S, ANY>(simd, index, rays, &mut answers, scratch)
+            } else {
+                Served::NONE
+            };
+            self.barrel::<S, ANY>(simd, index, rays, &served, &mut answers, scratch);
+        }
+    }
+
+    /// Leads what packets there are among at most [`WINDOW`] rays; says which are served.
+    #[inline(always)]
+    pub(super) fn packets<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &I,
+        rays: &[Ray],
+        (hits, blocked): &mut Answers<'_>,
+        scratch: &mut Scratch,
+    ) -> Served {
+        let mut served = Served::NONE;
+        let mut packet = Packet::EMPTY;
+        let mut probes = C::Probes::default();
+        let mut trail = Trail::new();
+        for first in (0..rays.len().min(WINDOW)).step_by(packet::RAYS) {
+            let some = &rays[first..rays.len().min(first + packet::RAYS)];
+            if !Packet::may_be(some) || !index.leads(some[0].kind(), Self::PACKED) {
+                continue;
+            }
+            let is_packet = if ANY {
+                let blocked = &blocked[first..][..some.len()];
+                let limit = |i: usize| if blocked[i] { f32::NEG_INFINITY } else { some[i].t_max() };
+                packet.take(simd, some, limit)
+            } else {
+                let hits = &hits[first..][..some.len()];
+                packet.take(simd, some, |i| hits[i].t)
+            };
+            let parts = (&mut packet, &mut probes, &mut trail);
+            let is_served = is_packet
+                && if ANY {
+                    let answers = (&mut [][..], &mut blocked[first..][..some.len()]);
+                    self.lead::<S, ANY>(simd, index, some, answers, parts, scratch)
+                } else {
+                    let answers = (&mut hits[first..][..some.len()], &mut [][..]);
+                    self.lead::<S, ANY>(simd, index, some, answers, parts, scratch)
+                };
+            if is_served {
+                served.add(first);
+            }
+        }
+        served
+    }
+
+    /// Leads one packet; false if its rays are to go alone after all.
+    #[inline(always)]
+    fn lead<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &I,
+        rays: &[Ray],
+        (hits, blocked): Answers<'_>,
+        (packet, probes, trail): (&mut Packet, &mut C::Probes, &mut Trail),
+        scratch: &mut Scratch,
+    ) -> bool {
+        let Some(mut lead) = index.lead_in(simd, packet, trail) else { return false };
+        self.members.children.probe_all(simd, packet, rays, probes);
+        loop {
+            let (leaf, mask) = match index.lead_on(simd, packet, trail, &mut lead) {
+                Led::Leaf(leaf, mask) => (leaf, mask),
+                end => {
+                    if !ANY {
+                        self.members.children.tell_hits(packet, probes, hits);
+                    }
+                    return end == Led::Done;
+                }
+            };
+            if ANY {
+                let hit = if Self::PACKED {
+                    self.members.children.any_in_leaf_by(simd, leaf, mask, packet, probes)
+                } else {
+                    self.any_of_members(leaf, mask, rays, scratch)
+                };
+                for lane in lanes(hit) {
+                    blocked[lane] = true;
+                    packet.limit[lane] = f32::NEG_INFINITY;
+                }
+            } else if Self::PACKED {
+                let children = &self.members.children;
+                children.closest_in_leaf_by(simd, leaf, mask, packet, probes, hits);
+            } else {
+                self.closest_of_members(leaf, mask, rays, hits, scratch);
+                for lane in lanes(mask) {
+                    packet.limit[lane] = hits[lane].t;
+                }
+            }
+        }
+    }
+
+    /// The children in a leaf that is not packed.
+    fn children_in(&self, leaf: Leaf) -> impl Iterator<Item = u32> + '_ {
+        let at = leaf.0 as usize;
+        let members = &self.table[at + 1..][..self.table[at] as usize];
+        members.iter().map(|&member| self.members.names.child(member))
+    }
+
+    /// Tests the children in a leaf with the rays of `mask`, which stay a batch.
+    fn closest_of_members(
+        &self,
+        leaf: Leaf,
+        mask: u32,
+        rays: &[Ray],
+        hits: &mut [Hit],
+        scratch: &mut Scratch,
+    ) {
+        let children = &self.members.children;
+        if mask.count_ones() < FEWEST {
+            for child in self.children_in(leaf) {
+                for lane in lanes(mask) {
+                    children.closest_hit(child, &rays[lane], &mut hits[lane], scratch);
+                }
+            }
+            return;
+        }
+        let mut few = Few::of(mask, rays, |lane| hits[lane]);
+        for child in self.children_in(leaf) {
+            let (rays, hits) = (&few.rays[..few.count], &mut few.hits[..few.count]);
+            children.closest_hits(child, rays, hits, scratch);
+        }
+        for (hit, lane) in few.hits.iter().zip(lanes(mask)) {
+            hits[lane] = *hit;
+        }
+    }
+
+    /// Which rays of `mask` hit any of the children in a leaf.
+    fn any_of_members(&self, leaf: Leaf, mask: u32, rays: &[Ray], scratch: &mut Scratch) -> u32 {
+        let children = &self.members.children;
+        let mut left = mask;
+        for child in self.children_in(leaf) {
+            if left.count_ones() < FEWEST {
+                for lane in lanes(left) {
+                    left &= !(u32::from(children.any_hit(child, &rays[lane], scratch)) << lane);
+                }
+                continue;
+            }
+            let few = Few::of(left, rays, |_| Hit::none(0.0));
+            let mut blocked = [false; packet::RAYS];
+            children.any_hits(child, &few.rays[..few.count], &mut blocked[..few.count], scratch);
+            for (blocked, lane) in blocked.into_iter().zip(lanes(left)) {
+                left &= !(u32::from(blocked) << lane);
+            }
+        }
+        mask & !left
+    }
+}
