@@ -3,7 +3,7 @@
 use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::aim::{Aims, Emitter};
-use nestray_core::hit::Hit;
+use nestray_core::hit::{Hit, InstancePath};
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, RayKind, Source};
 use nestray_core::scratch::Scratch;
@@ -18,7 +18,7 @@ pub fn hard(seed: u64, bounds: Aabb, aims: &[Vec3A], count: usize) -> Vec<Ray> {
     let mut rays = Vec::with_capacity(count);
     while rays.len() < count {
         let first = ray(&mut numbers, bounds, aims);
-        if numbers.once_in(60) {
+        if numbers.once_in(100) {
             rays.extend(neighbours(&mut numbers, &first, bounds, aims));
         } else {
             rays.push(first);
@@ -29,12 +29,15 @@ pub fn hard(seed: u64, bounds: Aabb, aims: &[Vec3A], count: usize) -> Vec<Ray> {
 }
 
 /// Rays as through neighbouring pixels: from one point or from a lens, a little apart, some
-/// of them at points exactly.
+/// of them at points exactly, some along an axis. Among them are rays with limits of their own,
+/// that have left a surface, or that are none.
 fn neighbours(numbers: &mut Numbers, first: &Ray, bounds: Aabb, aims: &[Vec3A]) -> Vec<Ray> {
-    let apart = *numbers.pick(&[0.0, 1e-4, 1e-3, 0.01, 0.03]) * first.dir().abs().max_element();
+    let apart =
+        *numbers.pick(&[0.0, 1e-4, 1e-3, 0.01, 0.03, 0.15]) * first.dir().abs().max_element();
     let lens = *numbers.pick(&[0.0, 0.0, 1e-3]) * bounds.size().max_element();
     let mut rays = Vec::new();
-    for _ in 0..4 + numbers.below(40) {
+    let mixed = numbers.once_in(3);
+    for _ in 0..4 + numbers.below(124) {
         let origin = first.origin() + (numbers.point() - 0.5) * lens;
         let mut dir = first.dir() + (numbers.point() - 0.5) * apart;
         if !aims.is_empty() && numbers.once_in(3) {
@@ -44,8 +47,20 @@ fn neighbours(numbers: &mut Numbers, first: &Ray, bounds: Aabb, aims: &[Vec3A]) 
             let best = tries.into_iter().max_by(|a, b| off(*a).total_cmp(&off(*b)));
             dir = best.map_or(dir, |aim| (aim - origin) * (dir.length() / (aim - origin).length()));
         }
+        if numbers.once_in(40) {
+            dir[numbers.below(3)] = 0.0;
+        }
         let ray = Ray::new(origin, dir, first.kind()).at_time(first.time());
-        rays.push(ray.between(first.t_min(), first.t_max()));
+        let ray = ray.between(first.t_min(), first.t_max());
+        rays.push(match numbers.below(40) {
+            0 if mixed => ray.between(numbers.between(0.0, 2.0), numbers.between(0.0, 2.0)),
+            1 if mixed => ray.between(f32::NAN, 1.0),
+            2..6 if mixed => {
+                let (geometry, primitive) = (numbers.below(12) as u32, numbers.below(200) as u32);
+                ray.leaving(Source { geometry, primitive, path: InstancePath::NONE })
+            }
+            _ => ray,
+        });
     }
     rays
 }

@@ -175,12 +175,12 @@ impl Packet {
             let far = simd.max(simd.max(size(origin[0]), size(origin[1])), size(origin[2]));
             let off = simd.mul(simd.max(far, simd.splat(reach)), simd.splat(slack));
             let least = simd.mul(size(part(&self.dir[main])), simd.splat(1e-9));
-            for axis in 0..3 {
+            for (axis, origin) in origin.into_iter().enumerate() {
                 let dir = part(&self.dir[axis]);
                 let small = simd.le(size(dir), least);
                 let dir = if small == 0 { dir } else { kept_off(simd, dir, least) };
                 let inverse = simd.div(simd.splat(1.0), dir);
-                let (middle, off) = (simd.mul(origin[axis], inverse), simd.mul(size(inverse), off));
+                let (middle, off) = (simd.mul(origin, inverse), simd.mul(size(inverse), off));
                 *eight_mut(&mut self.clip.inverse[axis], from) = simd.array(inverse);
                 *eight_mut(&mut self.clip.near[axis], from) = simd.array(simd.add(middle, off));
                 *eight_mut(&mut self.clip.far[axis], from) = simd.array(simd.sub(middle, off));
@@ -270,3 +270,6 @@ fn range<S: Simd>(simd: S, lanes: &Lanes) -> [f32; 2] {
     let negative = simd.sub(simd.splat(0.0), high);
     [simd.least(255, low), -simd.least(255, negative)]
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,7 +5,9 @@ mod bodies;
 mod exact;
 mod kernel;
 mod layout;
+mod leaf;
 mod part;
+mod shear;
 mod surface;
 mod test;
 mod together;
@@ -25,7 +27,7 @@ use nestray_core::names::Names;
 use nestray_core::packet::Packet;
 use nestray_core::ray::{Ray, Source};
 use nestray_core::scratch::Scratch;
-use nestray_core::simd::{SCALAR, Scalar, Simd};
+use nestray_core::simd::Simd;
 use nestray_core::surface::Surface;
 use nestray_core::technique::{Leaf, Leaves};
 
@@ -36,7 +38,7 @@ use self::part::Part;
 
 pub use self::kernel::{Shared, Soup};
 pub use self::layout::Layout;
-pub use self::test::{Probe, Shear};
+pub use self::shear::{Probe, Shear};
 pub use self::together::Probes;
 pub use self::triangles::{MeshError, Triangles};
 
@@ -60,16 +62,16 @@ pub struct Mesh<L> {
 }
 
 impl<L: Layout> Mesh<L> {
-    /// Geometry number `geometry`; triangle `i` reports `primitive == i`. Triangles with a
-    /// corner that is not finite, or farther out than [`Ray::FARTHEST`], are never hit.
+    /// Geometry number `geometry`; triangle `i` reports `primitive == i`. Triangles with a corner
+    /// that is not finite, or farther out than [`Ray::FARTHEST`], are never hit.
     #[must_use]
     pub fn new(geometry: u32, triangles: Arc<Triangles>) -> Self {
         Self::over(Bodies::one(geometry, triangles), Sides::Both, Part::default())
     }
 
     fn over(bodies: Bodies, sides: Sides, part: Part) -> Self {
-        let (blocks, numbers) = (Huge::default(), Huge::default());
-        Self { bodies, sides, part, blocks, numbers, layout: PhantomData }
+        let (blocks, numbers, layout) = (Huge::default(), Huge::default(), PhantomData);
+        Self { bodies, sides, part, blocks, numbers, layout }
     }
 
     /// The same mesh seen from some sides only.
@@ -98,7 +100,7 @@ impl<L: Layout> Mesh<L> {
         })
     }
 
-    /// The mesh that a child is a triangle of, and which it is there.
+    /// The mesh that a child is of, and which triangle.
     #[inline]
     fn find(&self, child: u32) -> (&Triangles, u32) {
         self.bodies.find(self.part.number(child))
@@ -111,22 +113,14 @@ impl<L: Layout> Mesh<L> {
         hit.offer(t, uv, geometry, primitive)
     }
 
-    /// One triangle in the first lane, by the same arithmetic.
-    fn alone(&self, number: u32, probe: &Probe, limit: f32) -> Option<(f32, [f32; 2])> {
-        let (triangles, primitive) = self.bodies.find(number);
-        if number == probe.skip || !triangles.is_usable(primitive) {
-            return None;
+    /// The number of the triangle that `source` lies on, or [`Hit::NOTHING`]. One that is not in
+    /// this part is no child either.
+    #[inline(always)]
+    fn left(&self, source: &Source) -> u32 {
+        if source.geometry == Hit::NOTHING || source.path != InstancePath::NONE {
+            return Hit::NOTHING;
         }
-        let corners = triangles.corners(primitive);
-        let lane = |corner: usize, axis: usize| SCALAR.splat(corners[corner][axis]);
-        let shear = &probe.shear;
-        let corners = [0, 1, 2].map(|c| {
-            let axis = |i: usize| lane(c, shear.axis(i));
-            shear.apply(SCALAR, axis(0), axis(1), axis(2))
-        });
-        let block = layout::Block { corners, shared: None, lanes: 1, first: 0, next: None };
-        let hits = test::hits::<Scalar, Soup>(SCALAR, probe, &block, limit, |_| number)?;
-        Some(hits.lane(SCALAR, 0))
+        self.bodies.number([source.geometry, source.primitive]).unwrap_or(Hit::NOTHING)
     }
 }
 
@@ -215,76 +209,29 @@ impl<L: Layout> Children for Mesh<L> {
 
     #[inline(always)]
     fn probe(&self, ray: &Ray) -> Probe {
-        let source = ray.source();
-        let is_near = source.geometry != Hit::NOTHING && source.path == InstancePath::NONE;
-        // Of another part it is no child of this one either.
-        let skip = if is_near {
-            self.bodies.number([source.geometry, source.primitive]).unwrap_or(Hit::NOTHING)
-        } else {
-            Hit::NOTHING
-        };
-        Probe { shear: Shear::new(ray), skip, sides: self.sides }
+        Probe { shear: Shear::new(ray), skip: self.left(&ray.source()), sides: self.sides }
     }
 
     #[inline(always)]
-    fn closest_in_leaf<S: Simd>(
-        &self,
-        simd: S,
-        mut leaf: Leaf,
-        probe: &Probe,
-        hit: &mut Hit,
-    ) -> bool {
-        let mut found = false;
-        loop {
-            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let number = |lane: usize| self.numbers[block.first as usize + lane];
-            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, hit.t, number) {
-                // Numbers ascend in a block, so the first lane wins a tie.
-                let (lane, t, uv) = hits.nearest(simd);
-                found |= self.offer(hit, t, uv, number(lane));
-            }
-            let Some(next) = block.next else { return found };
-            leaf = next;
-        }
+    fn closest_in_leaf<S: Simd>(&self, simd: S, leaf: Leaf, probe: &Probe, hit: &mut Hit) -> bool {
+        self.closest_of(simd, leaf, probe, hit)
     }
 
     #[inline(always)]
-    fn any_in_leaf<S: Simd>(&self, simd: S, mut leaf: Leaf, probe: &Probe, t_max: f32) -> bool {
-        loop {
-            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let number = |lane: usize| self.numbers[block.first as usize + lane];
-            if test::hits::<S, L>(simd, probe, &block, t_max, number).is_some() {
-                return true;
-            }
-            let Some(next) = block.next else { return false };
-            leaf = next;
-        }
+    fn any_in_leaf<S: Simd>(&self, simd: S, leaf: Leaf, probe: &Probe, t_max: f32) -> bool {
+        self.any_of(simd, leaf, probe, t_max)
     }
 
     #[inline(always)]
     fn all_in_leaf<S: Simd>(
         &self,
         simd: S,
-        mut leaf: Leaf,
+        leaf: Leaf,
         probe: &Probe,
         t_max: f32,
         out: &mut Vec<Hit>,
     ) {
-        loop {
-            let block = L::load(simd, &self.blocks, leaf, &probe.shear);
-            let number = |lane: usize| self.numbers[block.first as usize + lane];
-            if let Some(hits) = test::hits::<S, L>(simd, probe, &block, t_max, number) {
-                for lane in (0..8).filter(|lane| hits.mask >> lane & 1 == 1) {
-                    let (t, uv) = hits.lane(simd, lane);
-                    let mut hit = Hit::none(t_max);
-                    if self.offer(&mut hit, t, uv, number(lane)) {
-                        out.push(hit);
-                    }
-                }
-            }
-            let Some(next) = block.next else { return };
-            leaf = next;
-        }
+        self.all_of(simd, leaf, probe, t_max, out);
     }
 
     #[inline(always)]

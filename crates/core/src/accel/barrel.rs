@@ -5,6 +5,8 @@
 //! that depends on a ray. Rays that come to an object of its own (an instance, a nested
 //! aggregate) are handed on one by one.
 
+use std::hint::select_unpredictable;
+
 use crate::accel::Accel;
 use crate::accel::leaf::This;
 use crate::accel::packets::Served;
@@ -254,6 +256,9 @@ impl<I: Index, C: Children> Accel<I, C> {
             self.table.as_ptr().wrapping_add(at.as_leaf().0 as usize).cast()
         };
         let place = index.address(cursor, at);
-        prefetch(std::hint::select_unpredictable(at.is_onward(), place, leaf));
+        let next = select_unpredictable(at.is_onward(), place, leaf);
+        // What is nowhere takes long to look for.
+        let near = std::ptr::from_ref(cursor).cast();
+        prefetch(select_unpredictable(at.is_done(), near, next));
     }
 }

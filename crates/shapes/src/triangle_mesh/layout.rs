@@ -9,7 +9,7 @@ use nestray_core::technique::{Leaf, Leaves};
 use rayon::prelude::*;
 
 use super::bodies::Bodies;
-use super::test::Shear;
+use super::shear::Shear;
 use super::triangles::Triangles;
 
 /// Depths of up to 16 shared vertices, and which of them each corner of each triangle is.
