@@ -53,7 +53,7 @@ fn a_packet_meets_the_boxes_that_its_rays_meet() {
             let at = |step: u16| f32::from(i * step % 997) / 997.0;
             let way = at(17) * 4.0;
             let from = Vec3A::new(0.5, -3.0, 0.25) + middle * way;
-            let min = from + (Vec3A::new(at(31), at(23), at(11)) - 0.5) * 0.6;
+            let min = from + (Vec3A::new(at(31), at(23), at(11)) - 0.5) * 0.1;
             let max = min + Vec3A::new(at(7), at(5), at(3)) * 0.05;
             let mut rows = [[0.0; 8]; 6];
             for axis in 0..3 {
