@@ -115,7 +115,8 @@ impl<I: Index, C: Children> Accel<I, C> {
             scratch.counters.visit(ray.kind(), Site::of(self));
         }
         let Some(index) = &self.index else { return false };
-        let probe = self.members.children.probe(ray);
+        // Many rays never come to a leaf.
+        let mut probe = None;
         let mut trail = Trail::new();
         let mut walk = Walk { ray, trail: &mut trail, family: &self.members };
         let (mut cursor, mut at) = index.start(simd, &mut walk, limit);
@@ -133,7 +134,8 @@ impl<I: Index, C: Children> Accel<I, C> {
             if I::TELLS && at.is_hit() {
                 return true;
             }
-            let this = This { index, ray, probe: &probe, cursor: &cursor };
+            let probe = probe.get_or_insert_with(|| self.members.children.probe(ray));
+            let this = This { index, ray, probe, cursor: &cursor };
             match test(at.as_leaf(), &this, scratch) {
                 ControlFlow::Continue(nearer) => limit = nearer,
                 ControlFlow::Break(()) => return false,
