@@ -85,15 +85,19 @@ impl Ray {
 
     /// A ray over `[0, ∞)` at the start of the shutter, from no surface. `dir` may have any
     /// length but zero; `t` counts in multiples of it.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(origin: Vec3A, dir: Vec3A, kind: RayKind) -> Self {
-        let longest = dir.abs().max_element();
+        let size = dir.abs();
         // Comparisons with NaN are false, so these lines refuse it.
-        let usable = origin.abs().cmple(Vec3A::splat(Self::FARTHEST)).all()
-            && dir.abs().cmple(Vec3A::splat(Self::LONGEST)).all()
-            && longest >= Self::SHORTEST;
-        let ray = Self {
+        let usable = (origin.abs().cmple(Vec3A::splat(Self::FARTHEST))
+            & size.cmple(Vec3A::splat(Self::LONGEST)))
+        .all()
+            && size.cmpge(Vec3A::splat(Self::SHORTEST)).any();
+        if !usable {
+            return Self::void(kind, 0.0);
+        }
+        Self {
             origin: origin.to_array(),
             t_min: 0.0,
             dir: dir.to_array(),
@@ -101,22 +105,20 @@ impl Ray {
             time: 0.0,
             kind,
             source: Source::NONE,
-        };
-        if usable { ray } else { ray.void() }
+        }
     }
 
     /// The same ray with hits accepted only where `t_min ≤ t ≤ t_max`. A negative `t_min`
     /// counts as 0; NaN makes a ray that hits nothing.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn between(self, t_min: f32, t_max: f32) -> Self {
-        if t_min.is_nan() || t_max.is_nan() {
-            return self.void();
+        // Not of NaN.
+        if t_min < f32::INFINITY && t_max <= f32::INFINITY {
+            Self { t_min: self.t_min.max(t_min), t_max: self.t_max.min(t_max), ..self }
+        } else {
+            Self::void(self.kind, self.time)
         }
-        if t_min == f32::INFINITY {
-            return self.void();
-        }
-        Self { t_min: self.t_min.max(t_min), t_max: self.t_max.min(t_max), ..self }
     }
 
     /// The same ray over `[0, ∞)` again; one that hits nothing stays so.
@@ -144,15 +146,18 @@ impl Ray {
         Self { source, ..self }
     }
 
-    /// A ray of the same kind that hits nothing.
-    fn void(self) -> Self {
+    /// A ray that hits nothing.
+    #[cold]
+    #[inline(never)]
+    fn void(kind: RayKind, time: f32) -> Self {
         Self {
             origin: [0.0; 3],
             t_min: f32::INFINITY,
             dir: [1.0, 0.0, 0.0],
             t_max: f32::NEG_INFINITY,
+            time,
+            kind,
             source: Source::NONE,
-            ..self
         }
     }
 

@@ -82,6 +82,15 @@ impl Embree {
         build().map_err(|reason| Missing { peer: "Embree".into(), reason })
     }
 
+    /// How long builds take on all threads, by the clock on the wall; none if it is not there.
+    #[must_use]
+    pub fn builds_on_all(world: &World) -> Vec<(String, Duration)> {
+        let Ok(device) = library::open(0).map(Rc::new) else { return Vec::new() };
+        let built = |settings: &Settings| Self::build(world, *settings, &device).ok();
+        let all = Settings::ALL.iter().filter_map(built);
+        all.map(|built| (built.name(), built.build_took)).collect()
+    }
+
     fn build(world: &World, settings: Settings, device: &Rc<Device>) -> Result<Self, String> {
         let quality = match settings.quality {
             Quality::Medium => 1,
@@ -132,11 +141,6 @@ impl Peer for Embree {
 
     fn build_time(&self) -> Duration {
         self.build_time
-    }
-
-    fn build_on_all(&self, world: &World) -> Option<Duration> {
-        let device = Rc::new(library::open(0).ok()?);
-        Self::build(world, self.settings, &device).ok().map(|built| built.build_took)
     }
 
     fn bytes(&self) -> u64 {

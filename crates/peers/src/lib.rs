@@ -10,6 +10,8 @@ mod plugin;
 pub mod rays;
 pub mod world;
 
+use std::time::Duration;
+
 use peer::{Missing, Peer};
 use world::World;
 
@@ -25,5 +27,15 @@ pub fn open(name: &str, world: &World) -> Vec<Result<Box<dyn Peer>, Missing>> {
             Err(missing) => vec![Err(missing)],
         },
         _ => plugin::open(name, world),
+    }
+}
+
+/// How long a library takes to build on all threads, by the clock on the wall, for each way in which
+/// it is set; nothing of one that builds on one thread only.
+#[must_use]
+pub fn builds_on_all(name: &str, world: &World) -> Vec<(String, Duration)> {
+    match name {
+        "embree" => embree::Embree::builds_on_all(world),
+        _ => Vec::new(),
     }
 }

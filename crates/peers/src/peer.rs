@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use crate::rays::{HitRecord, Kind, RayRecord};
-use crate::world::World;
 
 /// In which way rays are handed over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -38,12 +37,6 @@ pub trait Peer {
 
     /// Processor time of its build, on one thread; triangles are there already.
     fn build_time(&self) -> Duration;
-
-    /// Time of another build of the same on all threads, by the clock on the wall; none if it does
-    /// not do that. To be asked last: threads that wait for more to build may keep a core busy.
-    fn build_on_all(&self, _world: &World) -> Option<Duration> {
-        None
-    }
 
     /// Memory that queries need: nodes and leaves. What is not known is 0.
     fn bytes(&self) -> u64;

@@ -11,10 +11,10 @@ use std::path::Path;
 use nestray::io::load::LoadOptions;
 use nestray::plan::error::nearest;
 use nestray::render::watch::Watch as _;
-use nestray_peers::core::OneCore;
+use nestray_peers::core::keep_to_one_core;
 use nestray_peers::peer::{Missing, Peer};
 use nestray_peers::world::World;
-use nestray_peers::{NAMES, open};
+use nestray_peers::{NAMES, builds_on_all, open};
 
 use self::ours::Ours;
 use self::report::Report;
@@ -43,7 +43,10 @@ pub(super) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
     };
     let ours = plans.iter().map(|plan| Ours::new(plan, &scene)).collect::<Result<Vec<_>, _>>()?;
     let mut missing = Vec::new();
-    let one_core = OneCore::new();
+    // First of all: nothing is to be timed on one thread while others wait for more to build.
+    let theirs = args.vs.iter().flat_map(|name| builds_on_all(name, &world));
+    let on_all = ours.iter().map(Ours::build_on_all).chain(theirs).collect();
+    keep_to_one_core();
     let peers = peers(&args.vs, &world, &mut missing)?;
     missing.iter().for_each(|missing| progress.note(&missing.to_string()));
     let all = ours.iter().map(|ours| ours as &dyn Peer);
@@ -52,15 +55,14 @@ pub(super) fn run(args: &BenchArgs, talk: &Talk) -> Result<(), Failure> {
         .iter()
         .flat_map(|&peer| peer.ways().iter().map(move |&way| Contender { peer, way }))
         .collect();
-    let mut report = Report::new(&args.scene, &world, args.seed, &contenders, &missing);
+    let mut report = Report::new(&args.scene, &world, args.seed, (&contenders, &missing), &on_all);
     let sets = sets::sets(&scene, ours[0].world(), args.rays.unwrap_or(RAYS), args.seed)?;
     let watching = progress.watch("bench");
     for (i, set) in (0..).zip(&sets) {
         watching.advanced(i, sets.len() as u64, 0);
         report.add(set, rounds::run(&contenders, set, args.rounds)?);
     }
-    drop((watching, one_core));
-    report.build_on_all(&contenders, &world);
+    drop(watching);
     for path in &args.output {
         let text = if is_json(path) { report.json() } else { report.text() };
         output::write(path, text.as_bytes())?;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
+use std::time::Duration;
 
 use nestray::plan::describe::bytes;
 use nestray_peers::peer::{Missing, Way};
@@ -46,15 +47,15 @@ impl Report {
         scene: &str,
         world: &World,
         seed: u64,
-        contenders: &[Contender<'_>],
-        missing: &[Missing],
+        (contenders, missing): (&[Contender<'_>], &[Missing]),
+        on_all: &HashMap<String, Duration>,
     ) -> Self {
         let row = |one: &Contender<'_>| Row {
             peer: one.peer.name(),
             version: one.peer.version(),
             way: one.way,
             build_seconds: one.peer.build_time().as_secs_f64(),
-            build_seconds_on_all: None,
+            build_seconds_on_all: on_all.get(&one.peer.name()).map(Duration::as_secs_f64),
             bytes: one.peer.bytes(),
         };
         Self {
@@ -65,15 +66,6 @@ impl Report {
             rows: contenders.iter().map(row).collect(),
             columns: Vec::new(),
             missing: missing.to_vec(),
-        }
-    }
-
-    /// Builds everything once more on all threads; nothing is to be timed afterwards.
-    pub(super) fn build_on_all(&mut self, contenders: &[Contender<'_>], world: &World) {
-        let mut built: HashMap<String, Option<f64>> = HashMap::new();
-        for (row, one) in self.rows.iter_mut().zip(contenders) {
-            let build = || one.peer.build_on_all(world).map(|time| time.as_secs_f64());
-            row.build_seconds_on_all = *built.entry(row.peer.clone()).or_insert_with(build);
         }
     }
 
