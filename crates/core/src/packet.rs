@@ -11,7 +11,7 @@ use glam::Vec3A;
 
 use crate::aabb::Aabb;
 use crate::beam::Beam;
-use crate::ray::{Ray, RayKind};
+use crate::ray::Ray;
 use crate::simd::Simd;
 
 pub use self::pencil::Pencil;
@@ -40,8 +40,6 @@ pub struct Packet {
     pub limit: Lanes,
     /// All of them lie in it. Its main axis is the one along which each runs fastest.
     pub beam: Beam,
-    /// What the first of them was cast for, and mostly all.
-    pub kind: RayKind,
     clip: Clips,
 }
 
@@ -75,7 +73,6 @@ impl Packet {
             v: [0.0; 2],
             farthest: f32::INFINITY,
         },
-        kind: RayKind::Camera,
         clip: Clips { inverse: [ZERO; 3], near: [ZERO; 3], far: [ZERO; 3] },
     };
 
@@ -106,7 +103,6 @@ impl Packet {
             self.t_min[i] = ray.t_min();
             self.limit[i] = if i <= last { limit(i) } else { f32::NEG_INFINITY };
         }
-        self.kind = rays[0].kind();
         let first = [self.dir[0][0], self.dir[1][0], self.dir[2][0]];
         self.beam.axis = longest(first);
         self.beam.backward = first[self.beam.axis] < 0.0;

@@ -14,6 +14,9 @@ pub struct Scratch {
     pub level: Level,
     /// What was done, if `level` is [`Level::Counting`].
     pub counters: Counters,
+    /// How many batches are being traced, each within the one before: each takes a lot of room on
+    /// the stack.
+    pub(crate) batches: u32,
 }
 
 impl Scratch {
@@ -26,7 +29,8 @@ impl Scratch {
     /// Uses the given vector instructions; for tests and benches.
     #[must_use]
     pub fn with_level(level: Level) -> Self {
-        Self { mailbox: Mailbox::default(), level, counters: Counters::default() }
+        let (mailbox, counters) = (Mailbox::default(), Counters::default());
+        Self { mailbox, level, counters, batches: 0 }
     }
 
     /// Counts what is done, which takes several times as long. Answers do not change.

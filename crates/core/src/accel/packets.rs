@@ -15,6 +15,9 @@ use crate::trail::Trail;
 pub(super) const WINDOW: usize = 4096;
 /// Fewest rays that are handed on as a batch.
 const FEWEST: u32 = 4;
+/// In so many batches, each within the one before, rays are handed on one by one: what is in flight
+/// takes about 80 KiB of stack each time, and nests are up to 192 levels deep.
+const DEEPEST: u32 = 2;
 
 /// Which packets of a window of rays need nothing more.
 #[derive(Clone, Copy, Debug)]
@@ -202,7 +205,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         scratch: &mut Scratch,
     ) {
         let children = &self.members.children;
-        if mask.count_ones() < FEWEST {
+        if mask.count_ones() < FEWEST || scratch.batches >= DEEPEST {
             for child in self.children_in(leaf) {
                 for lane in lanes(mask) {
                     children.closest_hit(child, &rays[lane], &mut hits[lane], scratch);
@@ -211,10 +214,12 @@ impl<I: Index, C: Children> Accel<I, C> {
             return;
         }
         let mut few = Few::of(mask, rays, |lane| hits[lane]);
+        scratch.batches += 1;
         for child in self.children_in(leaf) {
             let (rays, hits) = (&few.rays[..few.count], &mut few.hits[..few.count]);
             children.closest_hits(child, rays, hits, scratch);
         }
+        scratch.batches -= 1;
         for (hit, lane) in few.hits.iter().zip(lanes(mask)) {
             hits[lane] = *hit;
         }
@@ -225,7 +230,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         let children = &self.members.children;
         let mut left = mask;
         for child in self.children_in(leaf) {
-            if left.count_ones() < FEWEST {
+            if left.count_ones() < FEWEST || scratch.batches >= DEEPEST {
                 for lane in lanes(left) {
                     left &= !(u32::from(children.any_hit(child, &rays[lane], scratch)) << lane);
                 }
@@ -233,7 +238,9 @@ impl<I: Index, C: Children> Accel<I, C> {
             }
             let few = Few::of(left, rays, |_| Hit::none(0.0));
             let mut blocked = [false; packet::RAYS];
+            scratch.batches += 1;
             children.any_hits(child, &few.rays[..few.count], &mut blocked[..few.count], scratch);
+            scratch.batches -= 1;
             for (blocked, lane) in blocked.into_iter().zip(lanes(left)) {
                 left &= !(u32::from(blocked) << lane);
             }

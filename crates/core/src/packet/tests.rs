@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::aabb::Clip;
+use crate::ray::RayKind;
 use crate::simd::SCALAR;
 
 fn fan(middle: Vec3A, apart: f32, count: usize) -> Vec<Ray> {
