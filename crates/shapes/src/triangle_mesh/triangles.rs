@@ -222,25 +222,32 @@ impl Triangles {
         if !whole.overlaps(cell) {
             return Aabb::EMPTY;
         }
-        let mut part = Polygon::new(self.corners(triangle));
+        // Cut from one to the other and back.
+        let mut parts = [Polygon::new(self.corners(triangle)), Polygon::EMPTY];
+        let [part, room] = &mut parts;
+        let (mut part, mut room) = (part, room);
         for axis in 0..3 {
-            if whole.min[axis] < cell.min[axis] {
-                part = part.cut(axis, f64::from(cell.min[axis]), 1.0);
-            }
-            if whole.max[axis] > cell.max[axis] {
-                part = part.cut(axis, f64::from(cell.max[axis]), -1.0);
+            let walls = [(cell.min[axis], 1.0), (cell.max[axis], -1.0)];
+            let is_cut = [whole.min[axis] < walls[0].0, whole.max[axis] > walls[1].0];
+            for ((wall, side), _) in walls.into_iter().zip(is_cut).filter(|(_, is_cut)| *is_cut) {
+                part.cut(axis, f64::from(wall), side, room);
+                (part, room) = (room, part);
             }
         }
         if part.is_full {
             return whole.meet(*cell);
         }
-        let part = part.corners();
-        let low = |axis: usize| part.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-        let high = |axis: usize| part.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-        if part.is_empty() {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for corner in part.corners() {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+        }
+        if part.corners().is_empty() {
             return Aabb::EMPTY;
         }
-        crate::shape::bounds_from([0, 1, 2].map(low), [0, 1, 2].map(high)).meet(whole.meet(*cell))
+        crate::shape::bounds_from(low, high).meet(whole.meet(*cell))
     }
 }
 
@@ -277,22 +284,25 @@ impl Polygon {
         self.count += 1;
     }
 
-    /// The part on one side of a plane across an axis [Sutherland 74].
-    fn cut(&self, axis: usize, wall: f64, side: f64) -> Self {
-        let mut kept = Self { is_full: self.is_full, ..Self::EMPTY };
-        for (i, &a) in self.corners().iter().enumerate() {
-            let b = self.corners[(i + 1) % self.count];
-            let (from, to) = ((a[axis] - wall) * side, (b[axis] - wall) * side);
-            if from >= 0.0 {
-                kept.push(a);
-            }
+    /// Makes `kept` the part on one side of a plane across an axis [Sutherland 74].
+    #[inline]
+    fn cut(&self, axis: usize, wall: f64, side: f64, kept: &mut Self) {
+        (kept.count, kept.is_full) = (0, self.is_full);
+        let corners = self.corners();
+        let Some(mut a) = corners.last() else { return };
+        let mut from = (a[axis] - wall) * side;
+        for b in corners {
+            let to = (b[axis] - wall) * side;
             if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
                 let part = from / (from - to);
                 let mut between = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
                 between[axis] = wall;
                 kept.push(between);
             }
+            if to >= 0.0 {
+                kept.push(*b);
+            }
+            (a, from) = (b, to);
         }
-        kept
     }
 }

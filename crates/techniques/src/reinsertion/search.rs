@@ -32,7 +32,9 @@ pub(super) fn best_place(tree: &Tree, name: u32, open: &mut Vec<(f64, u32)>) -> 
     let mut rest = tree.node(side).bounds;
     let mut visits = 0;
     loop {
-        open.push((gain, side));
+        if gain - own > best.gain {
+            open.push((gain, side));
+        }
         while let Some((gain, to)) = open.pop() {
             visits += 1;
             if gain - own <= best.gain || visits > MOST_VISITS {
@@ -44,9 +46,10 @@ pub(super) fn best_place(tree: &Tree, name: u32, open: &mut Vec<(f64, u32)>) -> 
             if gain - joint > best.gain && tree.node(to).parent != parent {
                 best = Place { name, to, gain: gain - joint };
             }
-            if !node.is_whole {
-                let gain = gain + area(node.bounds) - joint;
-                open.extend(node.sides.map(|side| (gain, side)));
+            let gain = gain + area(node.bounds) - joint;
+            if !node.is_whole && gain - own > best.gain {
+                let [left, right] = node.sides;
+                open.extend([(gain, left), (gain, right)]);
             }
         }
         if at != parent {
