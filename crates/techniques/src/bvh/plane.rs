@@ -36,10 +36,14 @@ struct Frame {
 impl Frame {
     #[inline(always)]
     fn new(bins: usize, centers: &Centers) -> Self {
-        let size = centers.max - centers.min;
         /// Less makes no finite scale.
         const LEAST: f32 = 1e-30;
-        let axes = [size.x > LEAST, size.y > LEAST, size.z > LEAST];
+        /// Along an axis along which centres are within so small a part of what they are within
+        /// along another, no plane is worth trying.
+        const FLAT: f32 = 0.25;
+        let size = centers.max - centers.min;
+        let least = (FLAT * size.x.max(size.y).max(size.z)).max(LEAST);
+        let axes = [size.x > least, size.y > least, size.z > least];
         let scale = |axis: usize| if axes[axis] { (bins - 1) as f32 / size[axis] } else { 0.0 };
         let (scale, low) = (Vec4::new(scale(0), scale(1), scale(2), 0.0), centers.min);
         Self { low: Vec4::new(low.x, low.y, low.z, 0.0), scale, axes }
@@ -165,8 +169,8 @@ impl Cutting {
     #[inline(always)]
     pub(crate) fn best_plane<S: Simd>(&self, simd: S, parts: &[Part]) -> Option<Plane> {
         match (parts.len(), self.bins) {
-            (..16, _) => self.best_of::<S, 8>(simd, 8, parts),
-            (16..128, _) => self.best_of::<S, 16>(simd, 16, parts),
+            (..32, _) => self.best_of::<S, 8>(simd, 8, parts),
+            (32..128, _) => self.best_of::<S, 16>(simd, 16, parts),
             (_, ..=32) => self.best_of::<S, 32>(simd, self.bins, parts),
             _ => self.best_of::<S, 64>(simd, self.bins, parts),
         }

@@ -13,6 +13,9 @@ const FEW_SLICES: usize = 8;
 const MANY: usize = 256;
 /// Slices where most parts would be in many.
 const LEAST_SLICES: usize = 4;
+/// Where the best plane across a long axis costs so many times what is wanted, none is tried across
+/// shorter ones.
+const HOPELESS: f32 = 1.2;
 /// Of more parts than this, some are asked for all.
 const MOST_ASKED: usize = 4096;
 
@@ -38,12 +41,15 @@ pub(super) fn best_cut(
     let weight = |parts: &[Part]| parts.iter().map(Part::weight).sum::<f32>();
     // What those are asked for weigh more.
     let scale = weight(inside) / weight(&asked);
-    let mut best = None;
-    let mut least = cost / scale;
-    for axis in 0..3 {
-        if let Some((plane, cost)) = best_along(axis, knife, &asked, bounds)
-            && cost < least
-        {
+    let (mut best, mut least) = (None, cost / scale);
+    let (mut axes, size) = ([0, 1, 2], bounds.size());
+    axes.sort_by(|&a, &b| size[b].total_cmp(&size[a]));
+    for axis in axes {
+        let Some((plane, cost)) = best_along(axis, knife, &asked, bounds) else { continue };
+        if cost > HOPELESS * least {
+            break;
+        }
+        if cost < least {
             (best, least) = (Some(plane), cost);
         }
     }
