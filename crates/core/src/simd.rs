@@ -49,8 +49,12 @@ pub trait Simd: Copy + Send + Sync + 'static {
     fn min(self, a: Self::F32, b: Self::F32) -> Self::F32;
     /// The larger; the second if either is NaN.
     fn max(self, a: Self::F32, b: Self::F32) -> Self::F32;
+    /// `|a|`.
+    fn abs(self, a: Self::F32) -> Self::F32;
     /// `a · b − c`, rounded once or twice: for bounds with slack only.
     fn mul_sub(self, a: Self::F32, b: Self::F32, c: Self::F32) -> Self::F32;
+    /// The value in one lane, `lane` being below 8.
+    fn lane(self, a: Self::F32, lane: usize) -> f32;
     /// Lanes where `a ≤ b`.
     fn le(self, a: Self::F32, b: Self::F32) -> u32;
     /// Lanes where `a = b`.
@@ -178,6 +182,14 @@ impl<const COUNTS: bool> Simd for Plain<COUNTS> {
     #[inline(always)]
     fn max(self, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
         std::array::from_fn(|i| if a[i] > b[i] { a[i] } else { b[i] })
+    }
+    #[inline(always)]
+    fn abs(self, a: [f32; 8]) -> [f32; 8] {
+        a.map(f32::abs)
+    }
+    #[inline(always)]
+    fn lane(self, a: [f32; 8], lane: usize) -> f32 {
+        a[lane & 7]
     }
     #[inline(always)]
     fn mul_sub(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> [f32; 8] {

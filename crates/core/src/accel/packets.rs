@@ -42,6 +42,38 @@ impl Served {
     }
 }
 
+/// How many packets are not tried because those before had to give up: where triangles are smaller
+/// than pixels, neighbours do not stay together.
+#[derive(Clone, Copy, Debug, Default)]
+struct Patience {
+    /// How many more are not tried.
+    skips: u32,
+    /// How many were not the last time.
+    last: u32,
+}
+
+impl Patience {
+    /// Most that are not tried in a row.
+    const MOST: u32 = 16;
+
+    /// Whether the next packet is tried.
+    #[inline(always)]
+    fn tries(&mut self) -> bool {
+        let tries = self.skips == 0;
+        self.skips = self.skips.saturating_sub(1);
+        tries
+    }
+
+    /// What became of one.
+    #[inline(always)]
+    fn tell(&mut self, is_packet: bool, is_served: bool) {
+        if is_packet {
+            self.last = if is_served { 0 } else { (2 * self.last + 1).min(Self::MOST) };
+            self.skips = self.last;
+        }
+    }
+}
+
 /// The rays in a mask, by number.
 fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -111,12 +143,14 @@ impl<I: Index, C: Children> Accel<I, C> {
         scratch: &mut Scratch,
     ) -> Served {
         let mut served = Served::NONE;
+        let mut patience = Patience::default();
         let mut packet = Packet::EMPTY;
         let mut probes = C::Probes::default();
         let mut trail = Trail::new();
         for first in (0..rays.len().min(WINDOW)).step_by(packet::RAYS) {
             let some = &rays[first..rays.len().min(first + packet::RAYS)];
-            if !Packet::may_be(some) || !index.leads(some[0].kind(), Self::PACKED) {
+            let may_be = Packet::may_be(some) && index.leads(some[0].kind(), Self::PACKED);
+            if !may_be || !patience.tries() {
                 continue;
             }
             let is_packet = if ANY {
@@ -139,6 +173,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             if is_served {
                 served.add(first);
             }
+            patience.tell(is_packet, is_served);
         }
         served
     }

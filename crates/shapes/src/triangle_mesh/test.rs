@@ -43,17 +43,20 @@ impl<S: Simd> Hits<S> {
     #[inline(always)]
     pub(super) fn lane(&self, simd: S, lane: usize) -> (f32, [f32; 2]) {
         let [v, w] = self.weights;
-        let uv = [simd.array(v)[lane & 7], simd.array(w)[lane & 7]];
-        (simd.array(self.t)[lane & 7], uv)
+        (simd.lane(self.t, lane), [simd.lane(v, lane), simd.lane(w, lane)])
     }
 
     /// The nearest lane, the first of equals; there is one at least.
     #[inline(always)]
     pub(super) fn nearest(&self, simd: S) -> (usize, f32, [f32; 2]) {
-        let least = simd.least(self.mask, self.t);
-        let lane = (simd.eq(self.t, simd.splat(least)) & self.mask).trailing_zeros() as usize;
-        let (_, uv) = self.lane(simd, lane);
-        (lane, least, uv)
+        let mut lanes = self.mask;
+        // Mostly one lane is hit.
+        if lanes & (lanes - 1) != 0 {
+            lanes &= simd.eq(self.t, simd.splat(simd.least(lanes, self.t)));
+        }
+        let lane = lanes.trailing_zeros() as usize;
+        let (t, uv) = self.lane(simd, lane);
+        (lane, t, uv)
     }
 }
 
@@ -108,7 +111,8 @@ pub(super) fn settled<S: Simd, L: Layout>(
     // A zero may have been rounded to: decide such lanes with doubles. Other signs are right.
     let zero = simd.splat(0.0);
     let [u, v, w] = edges;
-    let unclear = (simd.eq(u, zero) | simd.eq(v, zero) | simd.eq(w, zero)) & mask;
+    let (least, most) = range(simd, edges);
+    let unclear = (simd.eq(least, zero) | simd.eq(most, zero)) & mask;
     if unclear != 0 {
         let arrays = |p: [S::F32; 3]| [simd.array(p[0]), simd.array(p[1])];
         let rounded = [simd.array(u), simd.array(v), simd.array(w)];
@@ -119,7 +123,7 @@ pub(super) fn settled<S: Simd, L: Layout>(
     let [u, v, w] = edges;
     let sum = simd.add(simd.add(u, v), w);
     // A triangle seen exactly from its side has no hit, and no weights.
-    mask &= !(simd.le(simd.splat(-LEAST), sum) & simd.le(sum, simd.splat(LEAST)));
+    mask &= !simd.le(simd.abs(sum), simd.splat(LEAST));
     if sides != Sides::Both {
         // The sum is twice the area, positive where the corners run clockwise along z.
         let front = if rays.is_forward { simd.le(zero, sum) } else { simd.le(sum, zero) };
@@ -138,10 +142,14 @@ pub(super) fn settled<S: Simd, L: Layout>(
 /// Lanes where all three edge functions have the same sign, or are zero.
 #[inline(always)]
 fn inside<S: Simd>(simd: S, [u, v, w]: [S::F32; 3]) -> u32 {
-    let zero = simd.splat(0.0);
-    let least = simd.min(simd.min(u, v), w);
-    let most = simd.max(simd.max(u, v), w);
+    let (zero, (least, most)) = (simd.splat(0.0), range(simd, [u, v, w]));
     simd.le(zero, least) | simd.le(most, zero)
+}
+
+/// The least of three, and the most.
+#[inline(always)]
+fn range<S: Simd>(simd: S, [a, b, c]: [S::F32; 3]) -> (S::F32, S::F32) {
+    (simd.min(simd.min(a, b), c), simd.max(simd.max(a, b), c))
 }
 
 /// Weights of the corners, in the lanes of `mask`, by the edge functions and their sum.
@@ -181,21 +189,18 @@ fn are_sure<S: Simd>(
     simd: S,
     rays: &Rays<S>,
     block: &Block<S>,
-    [az, bz, cz]: [S::F32; 3],
+    depths: [S::F32; 3],
     sum: S::F32,
 ) -> u32 {
     let [a, b, c] = block.corners;
-    let size = |a: S::F32| simd.max(a, simd.sub(simd.splat(0.0), a));
-    let least = |axis: usize| simd.min(simd.min(a[axis], b[axis]), c[axis]);
-    let most = |axis: usize| simd.max(simd.max(a[axis], b[axis]), c[axis]);
-    let wide =
-        simd.max(simd.max(size(least(0)), size(most(0))), simd.max(size(least(1)), size(most(1))));
-    let (near, far) = (simd.min(simd.min(az, bz), cz), simd.max(simd.max(az, bz), cz));
+    let wide_by = |corner: [S::F32; 3]| simd.max(simd.abs(corner[0]), simd.abs(corner[1]));
+    let wide = simd.max(simd.max(wide_by(a), wide_by(b)), wide_by(c));
+    let (near, far) = range(simd, depths);
     // Edge functions are off by 12 half-ulps of `wide²` together; 24 of the largest coordinate
     // are allowed, of which this is at most a quarter.
-    let reach = simd.add(simd.max(size(near), size(far)), rays.reach);
+    let reach = simd.add(simd.max(simd.abs(near), simd.abs(far)), rays.reach);
     let off = simd.mul(simd.sub(far, near), simd.mul(wide, wide));
-    simd.le(off, simd.mul(reach, size(sum)))
+    simd.le(off, simd.mul(reach, simd.abs(sum)))
 }
 
 /// Depths moved to where the ray is within the box of each triangle: nearly always they are, but
@@ -209,8 +214,7 @@ fn within_bounds<S: Simd>(
     depth: S::F32,
 ) -> S::F32 {
     let [az, bz, cz] = depths;
-    let mut enter = simd.min(simd.min(az, bz), cz);
-    let mut leave = simd.max(simd.max(az, bz), cz);
+    let (mut enter, mut leave) = range(simd, depths);
     // Along an axis that the ray hardly moves along, it does not leave the box.
     for axis in (0..2).filter(|&axis| rays.moves[axis] != 0) {
         // Unsheared again, relative to the origin of the ray.
@@ -219,8 +223,8 @@ fn within_bounds<S: Simd>(
         let at = |corner: [S::F32; 3], z: S::F32| simd.add(corner[axis], simd.mul(slope, z));
         let (a, b, c) = (at(a, az), at(b, bz), at(c, cz));
         let inverse = simd.div(simd.splat(1.0), slope);
-        let low = simd.mul(simd.min(simd.min(a, b), c), inverse);
-        let high = simd.mul(simd.max(simd.max(a, b), c), inverse);
+        let (least, most) = range(simd, [a, b, c]);
+        let (low, high) = (simd.mul(least, inverse), simd.mul(most, inverse));
         let (mut near, mut far) = (simd.min(low, high), simd.max(low, high));
         if rays.moves[axis] != 255 {
             near = kept(simd, near, rays.moves[axis], f32::NEG_INFINITY);
