@@ -74,31 +74,41 @@ impl Technique for Reinsertion {
 const LEAST: f64 = 0.001;
 
 impl Reinsertion {
-    /// The hierarchy made better, as long as nodes of eight gain by that. What single children
-    /// gain may be lost by leaves less full: so passes in which leaves move as a whole alternate
-    /// with those in which they do not.
     fn best<'a>(&self, size: LeafSize, of: &'a Contents, halves_from: usize) -> Binary<'a> {
-        let mut best = build::split(self.bins, 1, of, halves_from);
-        if best.order.len() < 4 {
-            return best;
-        }
-        let mut outlook = best.outlook(size);
-        let mut kinds = VecDeque::from([false, true]);
-        for _ in 0..self.passes {
-            let Some(whole_leaves) = kinds.pop_front() else { break };
-            let leaves = if whole_leaves { &outlook.leaves[..] } else { &[] };
-            let merges = moves::merges(self.share, &best, leaves);
-            let next = Binary::merged(of, &merges, halves_from);
-            let next_outlook = next.outlook(size);
-            let before = outlook.cost.unwrap_or(f64::INFINITY);
-            let after = next_outlook.cost.unwrap_or(f64::INFINITY);
-            if after < before {
-                (best, outlook) = (next, next_outlook);
-            }
-            if after < (1.0 - LEAST) * before {
-                kinds.push_back(whole_leaves);
-            }
-        }
-        best
+        let begin = build::split(self.bins, 1, of, halves_from);
+        improved(begin, self.passes, self.share, size, halves_from)
     }
+}
+
+/// A hierarchy made better in at most `passes`, as long as nodes of eight gain by that. Each leaf
+/// of it is one child. What single children gain may be lost by leaves less full: so passes in
+/// which leaves move as a whole alternate with those in which they do not.
+pub(crate) fn improved(
+    mut best: Binary<'_>,
+    passes: usize,
+    share: f32,
+    size: LeafSize,
+    halves_from: usize,
+) -> Binary<'_> {
+    if best.order.len() < 4 {
+        return best;
+    }
+    let mut outlook = best.outlook(size);
+    let mut kinds = VecDeque::from([false, true]);
+    for _ in 0..passes {
+        let Some(whole_leaves) = kinds.pop_front() else { break };
+        let leaves = if whole_leaves { &outlook.leaves[..] } else { &[] };
+        let merges = moves::merges(share, &best, leaves);
+        let next = Binary::merged(best.of, &merges, halves_from);
+        let next_outlook = next.outlook(size);
+        let before = outlook.cost.unwrap_or(f64::INFINITY);
+        let after = next_outlook.cost.unwrap_or(f64::INFINITY);
+        if after < before {
+            (best, outlook) = (next, next_outlook);
+        }
+        if after < (1.0 - LEAST) * before {
+            kinds.push_back(whole_leaves);
+        }
+    }
+    best
 }

@@ -32,7 +32,8 @@ pub(super) fn split<'a>(
     let growing = Growing {
         knife,
         together: of.together as usize,
-        few: few(params.max_leaf, of.together),
+        // Whoever moves pieces moves each of its own.
+        few: if params.passes > 0 { 1 } else { few(params.max_leaf, of.together) },
         cutting: Cutting { bins: params.bins, is_even: of.is_even() },
         halves_from,
         least_overlap: params.overlap * bounds.surface_area(),

@@ -143,6 +143,19 @@ impl<'a> Binary<'a> {
         self.order.len() > self.of.boxes.len()
     }
 
+    /// What stands in its leaves, each of which is one child: as if every piece of a child were a
+    /// child of its own.
+    #[must_use]
+    pub fn pieces(&self) -> Contents {
+        let mut boxes = Huge::repeated(Aabb::EMPTY, self.order.len());
+        for pair in self.pairs.iter().filter(|pair| pair.left == 0) {
+            debug_assert_eq!(pair.count, 1, "one child in a leaf");
+            boxes[pair.first as usize] = pair.bounds;
+        }
+        let weights = self.order.iter().map(|&child| self.of.weights[child as usize]).collect();
+        Contents { boxes, weights, together: self.of.together }
+    }
+
     /// What it becomes as a wide tree, for builders that compare.
     #[must_use]
     pub fn outlook(&self, size: LeafSize) -> Outlook {
