@@ -16,7 +16,7 @@ pub(crate) const ALL: &[Scene] = &[
     builtin("terrain-71", "builtin:terrain@71"),
     builtin("terrain-224", "builtin:terrain@224"),
     builtin("terrain-708", "builtin:terrain@708"),
-    builtin("terrain-1600", "builtin:terrain@1600"),
+    builtin("terrain-2237", "builtin:terrain@2237"),
 ];
 
 /// What is drawn of each scene.

@@ -123,7 +123,8 @@ fn measure(args: &Args, scene: &Scene, named: &str) -> Result<Results, String> {
     }
     let program = beside().join("release/nestray").with_extension(env::consts::EXE_EXTENSION);
     let mut command = Command::new(program);
-    command.args(["bench", named, "--vs", scene.peers, "--quiet", "-o"]).arg(&output);
+    command.args(["bench", named, "--plans", scene.plans, "--vs", scene.peers, "--quiet", "-o"]);
+    command.arg(&output);
     let done = command.args(&args.options).status();
     match done {
         Ok(status) if status.success() => Results::read(scene.name, &output),

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::results::{BATCH, HIGH, MEDIUM, ROBUST, Results, Row, SETS, SINGLE, mean_and_worst};
+use crate::results::{
+    BATCH, FAST, HIGH, MEDIUM, QUALITY, ROBUST, Results, Row, SETS, SINGLE, mean_and_worst,
+};
 
 /// Scenes with instances have a category of their own.
 const INSTANCED: [&str; 2] = ["forest", "sponza-in-terrain"];
@@ -33,9 +35,9 @@ fn over(of: &Results, way: &str, sets: &[&str], theirs: impl Fn(&str) -> Option<
     sets.iter().filter_map(ratio).collect()
 }
 
-fn build(of: &Results, embree: &str) -> Vec<f64> {
+fn build(of: &Results, ours: &str, embree: &str) -> Vec<f64> {
     let seconds = |peer: &str| of.row(peer).map(|row| row.build_seconds);
-    let ratio = || Some(seconds(embree)? / seconds(of.ours())?);
+    let ratio = || Some(seconds(embree)? / seconds(ours)?);
     ratio().into_iter().collect()
 }
 
@@ -54,18 +56,24 @@ const CATEGORIES: &[Category] = &[
         |of| over(of, BATCH, &SETS, |set| of.best(ROBUST, set))),
     category("one ray per call over Embree ROBUST, the same", [1.7, 1.3],
         |of| over(of, SINGLE, &SETS, |set| of.rate(ROBUST, SINGLE, set))),
-    category("build, one thread, over Embree MEDIUM", [2.0, 1.2], |of| build(of, MEDIUM)),
-    category("build, all threads by the clock over one thread", [1.9, 1.2], |of| {
+    category("build of `bvh`, one thread, over Embree MEDIUM", [2.0, 1.2],
+        |of| build(of, FAST, MEDIUM)),
+    category("build of `bvh`, all threads by the clock over one thread", [1.9, 1.2], |of| {
         let on_all = |row: Row<'_>| row.build_seconds / row.build_seconds_on_all;
-        of.row(of.ours()).map(on_all).into_iter().collect()
+        of.row(FAST).map(on_all).into_iter().collect()
     }),
-    category("build, one thread, over Embree HIGH", [1.5, 1.0], |of| build(of, HIGH)),
+    category("build of `sbvh`, one thread, over Embree HIGH", [1.5, 1.0],
+        |of| build(of, QUALITY, HIGH)),
+    category("bytes: Embree HIGH over `sbvh`", [1.0, 1.0], |of| {
+        let ratio = || Some(of.row(HIGH)?.bytes / of.row(QUALITY)?.bytes);
+        ratio().into_iter().collect()
+    }),
     Category { name: "instances: batch over the better call of Embree HIGH, all rays",
         goal: [1.5, 1.1], instanced: true, ratios: |of| batch(of, &SETS) },
     category("batch over every other library, its best way, all rays", [2.0, 1.2], |of| {
-        let ours = of.ours();
+        let ours = [FAST, QUALITY];
         let other = |set: &str| {
-            of.rates(set, |row| row.peer != ours && !row.peer.starts_with("Embree"))
+            of.rates(set, |row| !ours.contains(&row.peer) && !row.peer.starts_with("Embree"))
                 .reduce(f64::max)
         };
         over(of, BATCH, &SETS, other)

@@ -9,6 +9,10 @@ use serde_json::Value;
 pub(crate) const SINGLE: &str = "single";
 pub(crate) const BATCH: &str = "batch";
 
+/// Plans of ours: what is built for rays that matter, and what is built fast.
+pub(crate) const QUALITY: &str = "sbvh";
+pub(crate) const FAST: &str = "bvh";
+
 /// Names of Embree's settings, as in the measurements.
 pub(crate) const HIGH: &str = "Embree HIGH";
 pub(crate) const MEDIUM: &str = "Embree MEDIUM";

@@ -57,8 +57,8 @@ pub struct Entry {
     pub build: fn(u32) -> Scene,
 }
 
-/// The most primitives that a scene stores, instances not counted: a few hundred megabytes.
-pub const MOST: u64 = 6_000_000;
+/// The most primitives that a scene stores, instances not counted: about half a gigabyte.
+pub const MOST: u64 = 10_100_000;
 
 /// Why a scene cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -168,7 +168,7 @@ pub const SCENES: &[Entry] = &[
         "long thin triangles and cylinders, none along an axis"),
     entry!(scatter, "scatter", 1_000_000, 1..=4_000_000, "triangles",
         "small triangles anywhere in a cube"),
-    entry!(terrain, "terrain", 708, 2..=1600, "cells along a side",
+    entry!(terrain, "terrain", 708, 2..=2240, "cells along a side",
         "mountains as one mesh of a million triangles"),
     entry!(truss, "truss", 24, 1..=54, "cells along a side",
         "lattice of square bars as one mesh, turned so that none is along an axis"),
