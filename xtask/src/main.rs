@@ -29,6 +29,15 @@ const fn cargo(args: &'static [&'static str]) -> Step {
     Step { env: &[], args, nightly: false }
 }
 
+/// Tests that `AddressSanitizer` watches.
+const fn guarded(args: &'static [&'static str]) -> Step {
+    const ENV: &[(&str, &str)] = &[
+        ("RUSTFLAGS", "-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer"),
+        ("CARGO_TARGET_DIR", "target/address-sanitizer"),
+    ];
+    Step { env: ENV, args, nightly: true }
+}
+
 /// Tests that `ThreadSanitizer` watches.
 const fn watched(args: &'static [&'static str]) -> Step {
     const ENV: &[(&str, &str)] = &[
@@ -96,6 +105,20 @@ const CHORES: &[Chore] = &[
                 args: &["test", "--release", "-p", "nestray-core", "--lib", "slot"],
                 nightly: false,
             },
+            // Where the unsafe code of the library is.
+            guarded(&[
+                "test",
+                "--release",
+                "--target",
+                "host-tuple",
+                "-p",
+                "nestray-core",
+                "-p",
+                "nestray-shapes",
+                "-p",
+                "nestray-techniques",
+                "--lib",
+            ]),
             watched(&[
                 "test",
                 "--release",
