@@ -123,6 +123,11 @@ pub(crate) fn plan_failure(error: &PlanError, path: Option<&Path>) -> Failure {
 }
 
 impl Choice {
+    /// Whether it is left to the program.
+    pub(crate) fn is_auto(&self) -> bool {
+        matches!(self, Self::Technique(name) if name == "auto")
+    }
+
     /// The plan for a scene.
     pub(crate) fn plan(&self, scene: &Scene) -> Result<Plan, Failure> {
         match self {

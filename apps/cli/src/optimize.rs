@@ -8,8 +8,9 @@ use nestray::plan::build::build;
 use nestray::plan::optimize::ray_log::{RayLog, RaySet};
 use nestray::plan::optimize::{Observer, Optimized, Options, optimize};
 use nestray::plan::single::{AUTO, single};
-use nestray::prelude::Scene;
+use nestray::prelude::{DynObject, Scene};
 use nestray::render::watch::Watch as _;
+use nestray::scene::camera::Camera;
 
 use crate::args::{Budget, OptimizeArgs, Talk, Weights};
 use crate::bench::rays;
@@ -71,8 +72,24 @@ pub(crate) fn log(scene: &Scene, weights: &Weights, count: usize) -> Result<RayL
     let failure = |error| input::plan_failure(&error, None);
     let plan = single(AUTO, Default::default(), scene).map_err(failure)?;
     let world = build(&plan, scene).map_err(failure)?;
-    let sets = rays::sets(scene, &world, count, LIGHTS)?;
-    let log = RayLog::new(
+    let log = log_from(scene.cameras.first(), scene, &world, weights, count)?;
+    if log.sets.is_empty() {
+        let failure = Failure::usage("--weights: there are no rays of these kinds");
+        return Err(failure.hint("camera=1,shadow=4,reflect=1,diffuse=4,chords=0"));
+    }
+    Ok(log)
+}
+
+/// The same from some camera, with the objects of some plan; empty if no such rays are there.
+pub(crate) fn log_from(
+    eye: Option<&Camera>,
+    scene: &Scene,
+    world: &DynObject,
+    weights: &Weights,
+    count: usize,
+) -> Result<RayLog, Failure> {
+    let sets = rays::sets_from(eye, scene, world, count, LIGHTS)?;
+    Ok(RayLog::new(
         sets.into_iter()
             .map(|set| RaySet {
                 name: set.name.into(),
@@ -81,12 +98,7 @@ pub(crate) fn log(scene: &Scene, weights: &Weights, count: usize) -> Result<RayL
                 any: set.any,
             })
             .collect(),
-    );
-    if log.sets.is_empty() {
-        let failure = Failure::usage("--weights: there are no rays of these kinds");
-        return Err(failure.hint("camera=1,shadow=4,reflect=1,diffuse=4,chords=0"));
-    }
-    Ok(log)
+    ))
 }
 
 /// Shows how far the search is.

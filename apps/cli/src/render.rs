@@ -1,5 +1,6 @@
 //! `nestray render`.
 
+mod auto;
 pub(crate) mod settings;
 
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use nestray::io::load::LoadOptions;
 use nestray::io::write::{PictureFormat, write_picture};
 use nestray::plan::build::Builder;
 use nestray::plan::plan::Plan;
+use nestray::prelude::DynObject;
 use nestray::render::options::Options;
 use nestray::render::ray_counts::RayCounts;
 use nestray::render::render::{Rendered, render};
@@ -15,6 +17,7 @@ use nestray::render::tone_map::{Encoding, ToneMap};
 use nestray::scene::scene::Scene;
 
 use crate::args::{Frames, RenderArgs, Talk};
+use crate::cache::Cache;
 use crate::errors::Failure;
 use crate::input::{self, Choice};
 use crate::output;
@@ -22,6 +25,7 @@ use crate::progress::{Progress, rate};
 use crate::stats::Stats;
 use crate::stop;
 
+use self::auto::{Auto, Chosen};
 pub(crate) use self::settings::RESOLUTION;
 
 pub(crate) fn run(args: &RenderArgs, talk: &Talk) -> Result<(), Failure> {
@@ -42,13 +46,38 @@ pub(crate) fn run(args: &RenderArgs, talk: &Talk) -> Result<(), Failure> {
     options.check(&scene)?;
     stats.set_scene(&scene);
     stop::check()?;
-    let plan = choice.plan(&scene)?;
-    stats.set("plan", serde_json::json!({ "name": args.plan, "hash": plan.hash() }));
+    let (plan, ready, why) = match choice.is_auto() {
+        true => {
+            let found = stats.stage("plan", || find(args, &scene, &options, progress))?;
+            (found.plan, found.ready, Some(found.why))
+        }
+        false => (choice.plan(&scene)?, None, None),
+    };
+    stats.set("plan", serde_json::json!({ "name": args.plan, "hash": plan.hash(), "why": why }));
     progress.detail(&format!("plan {}", plan.hash()));
-    let mut film = Film { args, progress, stats, scene, plan, choice, options };
+    let mut film = Film { args, progress, stats, scene, plan, ready, choice, options };
     let result = film.run();
     film.stats.write(args.stats.as_deref())?;
     result
+}
+
+/// What `--plan auto` means for this scene and picture.
+fn find(
+    args: &RenderArgs,
+    scene: &Scene,
+    options: &Options,
+    progress: Progress,
+) -> Result<Chosen, Failure> {
+    let first = args.frames.map(|frames| frames.first);
+    let scene = &frame_of(scene, first, args);
+    let frames = args.frames.map_or(1, |frames| frames.numbers().count());
+    let cache = Cache::open(!args.no_cache, progress);
+    Auto { scene, options, frames, asked: args.search, cache, progress }.choose()
+}
+
+/// The scene as it is in a frame.
+fn frame_of(scene: &Scene, frame: Option<u32>, args: &RenderArgs) -> Scene {
+    scene.frame(frame.unwrap_or(0) as f32 / args.fps, args.shutter / args.fps)
 }
 
 /// The first and last frame, whose files are looked at before the work begins.
@@ -63,6 +92,8 @@ struct Film<'a> {
     stats: Stats,
     scene: Scene,
     plan: Plan,
+    /// The objects of the first frame, if they are there already.
+    ready: Option<DynObject>,
     choice: Choice,
     options: Options,
 }
@@ -107,12 +138,14 @@ impl Film<'_> {
         builder: &mut Builder<'_>,
     ) -> Result<Rendered, Failure> {
         let args = self.args;
-        let time = frame.unwrap_or(0) as f32 / args.fps;
-        let scene = self.scene.frame(time, args.shutter / args.fps);
+        let scene = frame_of(&self.scene, frame, args);
         let choice = &self.choice;
-        let world = self
-            .stats
-            .stage("build", || builder.build(&scene).map_err(|error| choice.failure(&error)))?;
+        let world = match self.ready.take() {
+            Some(world) => world,
+            None => self
+                .stats
+                .stage("build", || builder.build(&scene).map_err(|error| choice.failure(&error)))?,
+        };
         stop::check()?;
         let name = frame.map_or_else(|| "render".into(), |frame| format!("frame {frame}"));
         let watching = self.progress.watch(&name);

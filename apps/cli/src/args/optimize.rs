@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use nestray::render::ray_counts::RayCounts;
+
 /// `nestray optimize`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
@@ -61,12 +63,18 @@ pub(crate) enum Budget {
 }
 
 fn budget(text: &str) -> Result<Budget, String> {
+    let wrong = "expected is a time, as in 30s or 2m, or a number of plans, as in 2000evals";
+    if let Some(number) = text.strip_suffix("evals") {
+        return number.trim().parse().map(Budget::Plans).map_err(|_| wrong.into());
+    }
+    time(text).map(Budget::Time).map_err(|_| wrong.into())
+}
+
+/// A time with its unit.
+pub(super) fn time(text: &str) -> Result<Duration, String> {
     /// More than anybody waits, in seconds.
     const MOST: f64 = 1e7;
-    let wrong = || "expected is a time, as in 30s or 2m, or a number of plans, as in 2000evals";
-    if let Some(number) = text.strip_suffix("evals") {
-        return number.trim().parse().map(Budget::Plans).map_err(|_| wrong().into());
-    }
+    let wrong = || "expected is a time, as in 30s or 2m".to_owned();
     let (number, unit) = match (text.strip_suffix("ms"), text.strip_suffix('s')) {
         (Some(number), _) => (number, 1e-3),
         (_, Some(number)) => (number, 1.0),
@@ -74,9 +82,9 @@ fn budget(text: &str) -> Result<Budget, String> {
     };
     let seconds = number.trim().parse::<f64>().map_err(|_| wrong())? * unit;
     if !(0.0..=MOST).contains(&seconds) {
-        return Err(wrong().into());
+        return Err(wrong());
     }
-    Ok(Budget::Time(Duration::from_secs_f64(seconds)))
+    Ok(Duration::from_secs_f64(seconds))
 }
 
 /// How many rays of each kind come with each other.
@@ -90,6 +98,20 @@ impl Weights {
     /// Of rays of a kind; 0 if none was said.
     pub(crate) fn of(&self, kind: &str) -> f64 {
         self.0.iter().find(|(name, _)| name == kind).map_or(0.0, |&(_, weight)| weight)
+    }
+}
+
+impl Weights {
+    /// As many as there were.
+    pub(crate) fn counted(rays: &RayCounts) -> Self {
+        let weight = |name: &str, count: u64| (name.to_owned(), count as f64);
+        // The log has no refracted rays; they start where mirrored ones do, and are as scattered.
+        Self(vec![
+            weight("camera", rays.camera.cast),
+            weight("shadow", rays.shadow.cast),
+            weight("reflect", rays.reflect.cast + rays.refract.cast),
+            weight("diffuse", rays.diffuse.cast),
+        ])
     }
 }
 

@@ -3,6 +3,7 @@
 use nestray::batch::closest_hits;
 use nestray::core::surface::Surface;
 use nestray::prelude::{DynObject, Object as _, Ray, RayKind, Scene, Surfaces, Vec3A};
+use nestray::scene::camera::Camera;
 use nestray::scene::light::{Light, LightKind};
 
 use crate::errors::Failure;
@@ -15,15 +16,26 @@ pub(crate) struct RaySet {
     pub(crate) any: bool,
 }
 
-/// Sets of at most `count` rays each, towards each of the first `lights`; those without a ray are
-/// left out.
+/// Sets of at most `count` rays each, from the first camera and what those hit towards each of the
+/// first `lights`; those without a ray are left out.
 pub(crate) fn sets(
     scene: &Scene,
     world: &DynObject,
     count: usize,
     lights: usize,
 ) -> Result<Vec<RaySet>, Failure> {
-    let camera = camera(scene, count);
+    sets_from(scene.cameras.first(), scene, world, count, lights)
+}
+
+/// The same from some camera.
+pub(crate) fn sets_from(
+    eye: Option<&Camera>,
+    scene: &Scene,
+    world: &DynObject,
+    count: usize,
+    lights: usize,
+) -> Result<Vec<RaySet>, Failure> {
+    let camera = camera(eye, count);
     let mut sets = vec![RaySet { name: "camera", rays: camera, any: false }];
     let lights = &scene.lights[..lights.min(scene.lights.len())];
     sets.extend(bounces(scene, lights, world, &sets[0].rays)?);
@@ -33,8 +45,8 @@ pub(crate) fn sets(
 }
 
 /// Through the middles of the pixels of a square picture, line by line.
-fn camera(scene: &Scene, count: usize) -> Vec<Ray> {
-    let Some(camera) = scene.cameras.first() else { return Vec::new() };
+fn camera(eye: Option<&Camera>, count: usize) -> Vec<Ray> {
+    let Some(camera) = eye else { return Vec::new() };
     let (side, view) = (count.isqrt().max(1) as u32, camera.view(1.0));
     let through = |i: u32| view.through([i % side, i / side], [side; 2]);
     (0..side * side)

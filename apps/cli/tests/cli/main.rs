@@ -1,5 +1,6 @@
 //! The program as people run it.
 
+mod auto;
 mod bad_input;
 mod bench;
 #[cfg(unix)]

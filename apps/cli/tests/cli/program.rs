@@ -55,6 +55,9 @@ pub(crate) fn nestray(args: &[&str]) -> Ran {
 /// Runs the program in an environment with these values, too.
 pub(crate) fn nestray_with(args: &[&str], values: &[(&str, &str)]) -> Ran {
     let mut command = Command::cargo_bin("nestray").expect("it was built");
+    // The user's own cache is not for tests.
+    let cache = Folder::new();
+    command.env("XDG_CACHE_HOME", cache.0.path());
     command.envs(values.iter().copied());
     let Output { status, stdout, stderr } =
         command.args(args).timeout(std::time::Duration::from_secs(120)).output().expect("it runs");
