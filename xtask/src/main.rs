@@ -99,6 +99,7 @@ const CHORES: &[Chore] = &[
             long!("determinism", "NESTRAY_PICTURES" = "1000"),
             long!("lazy", "NESTRAY_BUILDS" = "2000"),
             long!("expected", "NESTRAY_LINES" = "200000"),
+            long!("theorems", "NESTRAY_LINES" = "10000000"),
             long!("published", "NESTRAY_RAYS" = "40000"),
             Step {
                 env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
