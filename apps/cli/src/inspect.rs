@@ -1,7 +1,7 @@
 //! `nestray inspect`.
 
 mod list;
-mod pilot;
+pub(crate) mod pilot;
 mod plan;
 mod ray;
 mod scene;

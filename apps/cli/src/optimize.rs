@@ -1,5 +1,7 @@
 //! `nestray optimize`: the plan that is fastest for a scene.
 
+mod html;
+pub(crate) mod nest;
 pub(crate) mod report;
 
 use nestray::core::cost::CostModel;
@@ -12,6 +14,7 @@ use nestray::prelude::{DynObject, Scene};
 use nestray::render::watch::Watch as _;
 use nestray::scene::camera::Camera;
 
+use self::nest::Nest;
 use crate::args::{Budget, OptimizeArgs, Talk, Weights};
 use crate::bench::rays;
 use crate::errors::Failure;
@@ -45,9 +48,17 @@ pub(crate) fn run(args: &OptimizeArgs, talk: &Talk) -> Result<(), Failure> {
     };
     let found = search(&scene, &log, &options, progress)?;
     output::write(&args.output, found.plan.to_json().as_bytes())?;
-    if let Some(path) = &args.report {
-        let json = report::json(&found, &log, &options);
-        output::write(path, format!("{json:#}\n").as_bytes())?;
+    if !args.report.is_empty() {
+        let nest = Nest::new(&scene, &found, &log)?;
+        for path in &args.report {
+            let is_page =
+                path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
+            let text = match is_page {
+                true => html::page(&args.scene, &found, &log, &options, &nest),
+                false => format!("{:#}\n", report::json(&found, &log, &options, &nest)),
+            };
+            output::write(path, text.as_bytes())?;
+        }
     }
     if args.output.as_os_str() != "-" {
         output::say(&report::text(&found, &log))?;

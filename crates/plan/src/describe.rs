@@ -1,12 +1,14 @@
 //! What an object is made of, for reports.
 
 mod counted;
+mod spent;
 
 use nestray_core::cost::{Cost, CostModel};
 use nestray_core::object::Object;
 use serde::Serialize;
 
 pub use self::counted::{Counted, Doing, Expected, Sent};
+pub use self::spent::Spent;
 
 /// An object and what is in it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -212,6 +214,12 @@ mod tests {
         assert_eq!(counted(&part.children[0].children[0]), only(0.5, 1.0, 1.0));
         let text = part.to_text();
         assert!(text.contains("expected") && text.matches("bent").count() == 2, "{text}");
+        let prices = CostModel::usual();
+        let spent = part.spent(prices, &|rays| if rays == "bent" { 0.5 } else { 0.0 });
+        let outer = 0.5 * (prices.step("bvh") + 0.5 * prices.transform);
+        let inner = 0.5 * 0.5 * (prices.step("bvh") + prices.primitive("sphere"));
+        assert!((spent.own - outer).abs() < 1e-9 && (spent.total - outer - inner).abs() < 1e-9);
+        assert_eq!(spent.inner[0].inner[0].total, inner);
     }
 
     #[test]

@@ -25,7 +25,7 @@ use self::anneal::Tempering;
 use self::archive::Archive;
 use self::measure::{Finalist, Measured};
 use self::ray_log::RayLog;
-use self::score::Scorer;
+use self::score::{Score, Scorer};
 use crate::error::PlanError;
 use crate::fingerprint::fingerprint;
 use crate::plan::Plan;
@@ -72,6 +72,8 @@ pub struct Optimized {
     /// The plan that was expected to be fastest: the same for the same scene, rays, seed, prices and
     /// number of evaluations, on every machine and any number of threads.
     pub expected: Plan,
+    /// The cheapest that were tried, by what was expected, for the mix.
+    pub candidates: Vec<Candidate>,
     /// All that was timed, the winner first, then as fast as they were.
     pub finalists: Vec<Measured>,
     /// Plans that were tried.
@@ -80,6 +82,15 @@ pub struct Optimized {
     pub search_seconds: f64,
     /// How the search went.
     pub trace: Vec<anneal::Round>,
+}
+
+/// A plan that was tried.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// Which.
+    pub plan: Plan,
+    /// What it is expected to cost.
+    pub score: Score,
 }
 
 /// Is told how far it has come, and says when to stop.
@@ -116,7 +127,7 @@ pub fn optimize(
     Tempering::new(scene, &allowed, options.seed).run(&scorer, &limits, &mut archive, &mut trace);
     let search_seconds = begun.elapsed().as_secs_f64();
     let evaluations = archive.evaluations();
-    let expected = archive.cheapest();
+    let (expected, candidates) = (archive.cheapest(), archive.candidates());
     let finalists: Vec<Finalist> = archive.finalists();
     let mut measured = measure::race(scene, finalists, &timed_log, options, observer)?;
     let winner = measure::choose(&measured);
@@ -124,7 +135,8 @@ pub fn optimize(
     plan.scene = Some(fingerprint(scene));
     measured[..].swap(0, winner);
     measured[1..].sort_by(|a, b| a.total.total_cmp(&b.total));
-    Ok(Optimized { plan, expected, finalists: measured, evaluations, search_seconds, trace })
+    let finalists = measured;
+    Ok(Optimized { plan, expected, candidates, finalists, evaluations, search_seconds, trace })
 }
 
 /// When to end.

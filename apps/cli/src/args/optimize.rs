@@ -9,7 +9,7 @@ use nestray::render::ray_counts::RayCounts;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
     nestray optimize builtin:truss -o truss.plan.json\n  \
-    nestray optimize scene.gltf -o plan.json --budget 2000evals --seed 7 --report search.json\n  \
+    nestray optimize scene.gltf -o plan.json --budget 2000evals --seed 7 --report search.html\n  \
     nestray optimize scene.gltf -o plan.json --weights camera=1,shadow=1 --rays-expected 1e9\n  \
     nestray render scene.gltf -o out.png --plan plan.json\n\n\
     The same scene, seed and number of plans (evals) find the same plans; which of them is fastest \
@@ -50,9 +50,10 @@ pub(crate) struct OptimizeArgs {
     /// Turns of each plan that is timed.
     #[arg(long, default_value_t = 5, value_parser = super::values::rounds)]
     pub(crate) rounds: usize,
-    /// Write all that was tried and timed, as JSON.
+    /// Write all that was tried and timed: as a page with drawings if the name ends with .html, else
+    /// as JSON; may be given several times.
     #[arg(long, value_name = "FILE")]
-    pub(crate) report: Option<PathBuf>,
+    pub(crate) report: Vec<PathBuf>,
 }
 
 /// What may be spent.

@@ -12,7 +12,7 @@ const RAYS: usize = 4096;
 const LIGHTS: usize = 8;
 
 /// Sends rays from the first camera, from what they hit, and from everywhere; always the same.
-pub(super) fn send(scene: &Scene, world: &DynObject) -> Result<Sent, Failure> {
+pub(crate) fn send(scene: &Scene, world: &DynObject) -> Result<Sent, Failure> {
     let mut scratch = Scratch::counting_by_site();
     let mut sent = Vec::<(String, RayKind, u64)>::new();
     for set in rays::sets(scene, world, RAYS, LIGHTS)? {

@@ -1,12 +1,16 @@
 //! What a search found, for people and for programs.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use nestray::plan::describe::bytes;
+use nestray::plan::optimize::anneal::Round;
 use nestray::plan::optimize::measure::Measured;
 use nestray::plan::optimize::ray_log::RayLog;
 use nestray::plan::optimize::{Optimized, Options};
 use serde_json::{Value, json};
+
+use super::nest::Nest;
 
 /// A table: what was expected and what was measured.
 pub(crate) fn text(found: &Optimized, log: &RayLog) -> String {
@@ -26,8 +30,7 @@ pub(crate) fn text(found: &Optimized, log: &RayLog) -> String {
         row(&mut text, one, log);
     }
     let winner = &finalists[0];
-    let single = finalists.iter().filter(|one| one.finalist.is_single);
-    if let Some(best) = single.min_by(|a, b| a.total.total_cmp(&b.total)) {
+    if let Some(best) = best_single(finalists) {
         let _ = writeln!(
             text,
             "\nthe fastest, {}, is {:.2} times as fast as the best single technique, {}",
@@ -40,6 +43,23 @@ pub(crate) fn text(found: &Optimized, log: &RayLog) -> String {
         let _ = writeln!(text, "expected against measured: rank correlation {rho:.2}");
     }
     text
+}
+
+/// The fastest of those that are one technique over everything.
+pub(super) fn best_single(finalists: &[Measured]) -> Option<&Measured> {
+    let single = finalists.iter().filter(|one| one.finalist.is_single);
+    single.min_by(|a, b| a.total.total_cmp(&b.total))
+}
+
+/// How often each move was proposed, and taken.
+pub(super) fn moves(trace: &[Round]) -> BTreeMap<&'static str, [u64; 2]> {
+    let mut moves = BTreeMap::<_, [u64; 2]>::new();
+    for &(name, taken) in trace.iter().flat_map(|round| &round.steps) {
+        let counts = moves.entry(name).or_default();
+        counts[0] += 1;
+        counts[1] += u64::from(taken);
+    }
+    moves
 }
 
 fn row(text: &mut String, one: &Measured, log: &RayLog) {
@@ -85,7 +105,7 @@ fn spearman(finalists: &[Measured], log: &RayLog) -> Option<f64> {
 }
 
 /// Everything, the trace of the search included.
-pub(super) fn json(found: &Optimized, log: &RayLog, options: &Options) -> Value {
+pub(super) fn json(found: &Optimized, log: &RayLog, options: &Options, nest: &Nest) -> Value {
     let sets: Vec<Value> = log
         .sets
         .iter()
@@ -111,7 +131,23 @@ pub(super) fn json(found: &Optimized, log: &RayLog, options: &Options) -> Value 
                 "steps": round.steps, "exchanges": round.exchanges })
         })
         .collect();
-    json!({ "seed": options.seed, "evaluations": found.evaluations,
+    let candidates: Vec<Value> = found
+        .candidates
+        .iter()
+        .map(|one| {
+            json!({ "plan": one.plan, "expected_nanos": one.score.nanos,
+                "expected_mix": one.score.mix(log), "bytes": one.score.bytes })
+        })
+        .collect();
+    let moves: serde_json::Map<String, Value> = moves(&found.trace)
+        .into_iter()
+        .map(|(name, [proposed, taken])| {
+            (name.to_owned(), json!({ "proposed": proposed, "taken": taken }))
+        })
+        .collect();
+    let exchanges: usize = found.trace.iter().map(|round| round.exchanges).sum();
+    json!({ "moves": moves, "exchanges": exchanges, "candidates": candidates, "nest": nest.part,
+        "spent": nest.spent, "seed": options.seed, "evaluations": found.evaluations,
         "search_seconds": found.search_seconds, "rays_expected": options.rays_expected,
         "rays": sets, "finalists": finalists, "trace": trace })
 }

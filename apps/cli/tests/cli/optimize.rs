@@ -13,7 +13,8 @@ fn a_plan_is_found_that_serves_its_scene_and_no_other() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("a plain name").to_owned();
     let (plan, report, picture) = (path("plan.json"), path("report.json"), path("picture.png"));
-    let files = ["-o", &plan, "--report", &report];
+    let page = path("report.html");
+    let files = ["-o", &plan, "--report", &report, "--report", &page];
     let said = nestray(&[SEARCH, &files].concat()).succeeds().output;
     assert!(said.contains("plans tried") && said.contains("the best single technique"), "{said}");
 
@@ -26,6 +27,29 @@ fn a_plan_is_found_that_serves_its_scene_and_no_other() {
     assert_eq!(finalists[0]["plan"]["root"], read(&plan)["root"]);
     for one in finalists {
         assert!(one["total"].as_f64().is_some_and(|total| total > 0.0), "{one}");
+    }
+    let moves = found["moves"].as_object().expect("an object");
+    for counts in moves.values() {
+        assert!(counts["taken"].as_u64() <= counts["proposed"].as_u64(), "{counts}");
+    }
+    let mixes: Vec<f64> = found["candidates"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|one| one["expected_mix"].as_f64().expect("a number"))
+        .collect();
+    assert!(mixes.len() > 10 && mixes.is_sorted(), "{mixes:?}");
+    assert!(found["spent"]["total"].as_f64().is_some_and(|nanos| nanos > 0.0));
+    let page = std::fs::read_to_string(page).expect("it was written");
+    assert_eq!(page.matches("<svg").count(), page.matches("</svg>").count());
+    assert_eq!(page.matches("<tr").count(), 2 + finalists.len() + moves.len());
+    for one in finalists {
+        let name = one["name"].as_str().expect("a name");
+        assert!(page.contains(&format!("<td>{name}")), "{name}");
+    }
+    // Nothing from elsewhere, and nothing that runs.
+    for word in ["<script", "src=", "href=", "url(", "@import", "NaN"] {
+        assert!(!page.contains(word), "{word}");
     }
 
     let render = ["render", "builtin:tetra@3", "-o", &picture, "--plan", &plan];

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nestray_core::by_kind::Case;
 
+use super::Candidate;
 use super::measure::Finalist;
 use super::ray_log::RayLog;
 use super::score::Score;
@@ -105,6 +106,17 @@ impl Archive {
     pub(crate) fn cheapest(&self) -> Plan {
         let best = self.best(Goal::Mix)[0];
         self.tried[best].plan.clone()
+    }
+
+    /// The cheapest for the mix, the cheapest first.
+    pub(crate) fn candidates(&self) -> Vec<Candidate> {
+        /// More than anybody looks at.
+        const MOST: usize = 50;
+        let candidate = |number: usize| {
+            let Tried { plan, score, .. } = &self.tried[number];
+            Candidate { plan: plan.clone(), score: score.clone() }
+        };
+        self.best(Goal::Mix).into_iter().take(MOST).map(candidate).collect()
     }
 
     /// Plans to be timed: every single technique for which there is any hope, the best for each

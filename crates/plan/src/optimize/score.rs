@@ -92,17 +92,20 @@ impl<'a> Scorer<'a> {
     fn price(&self, tally: &Tally) -> f64 {
         let steps: f64 =
             tally.steps.iter().map(|(name, &count)| self.prices.step(name) * count as f64).sum();
-        let tests: f64 =
-            tally.tests.iter().map(|(kind, &count)| self.test(kind) * count as f64).sum();
+        let tests: f64 = tally
+            .tests
+            .iter()
+            .map(|(kind, &count)| test_price(self.prices, kind) * count as f64)
+            .sum();
         steps + tests
     }
+}
 
-    /// What testing one child takes, without what it does itself.
-    fn test(&self, kind: &str) -> f64 {
-        match kind {
-            "instance" => self.prices.transform,
-            _ if registry::find(kind).is_some() => self.prices.call,
-            _ => self.prices.primitive(kind),
-        }
+/// What testing one child takes, without what it does itself.
+pub(crate) fn test_price(prices: &CostModel, kind: &str) -> f64 {
+    match kind {
+        "instance" => prices.transform,
+        _ if registry::find(kind).is_some() => prices.call,
+        _ => prices.primitive(kind),
     }
 }
