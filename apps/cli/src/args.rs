@@ -134,10 +134,12 @@ pub(crate) struct ConvertArgs {
     nestray inspect --list presets\n  \
     nestray inspect scene.gltf --plan grid\n  \
     nestray inspect scene.gltf --ray 320,240\n  \
-    nestray inspect plan.json")]
+    nestray inspect plan.json\n  \
+    nestray inspect scene.gltf --plan plan.json --explain root/nest/children/1\n  \
+    nestray inspect --diff old.json new.json")]
 pub(crate) struct InspectArgs {
     /// A scene (a file, `-`, or `builtin:NAME`) or a plan file.
-    #[arg(required_unless_present = "list", conflicts_with = "list")]
+    #[arg(required_unless_present_any = ["list", "diff"], conflicts_with_all = ["list", "diff"])]
     pub(crate) scene: Option<String>,
     /// Show the nest that a plan makes, and what it does for rays of each kind: visits of each
     /// part per ray, steps and tests per visit.
@@ -152,6 +154,13 @@ pub(crate) struct InspectArgs {
     /// Pixels across and down that `--ray` counts in; that of the scene, or 640x480.
     #[arg(long, value_name = "WxH", value_parser = values::resolution)]
     pub(crate) resolution: Option<[u32; 2]>,
+    /// Say why a technique stands where it does in a plan: the cost of each other in its place, what
+    /// it expected, and what was counted. Nodes are told by their path, as `root/nest/children/1`.
+    #[arg(long, value_name = "NODE", requires = "scene", conflicts_with_all = ["tree", "ray"])]
+    pub(crate) explain: Option<String>,
+    /// Say what differs between two plan files.
+    #[arg(long, value_names = ["PLAN", "PLAN"], num_args = 2, conflicts_with = "list")]
+    pub(crate) diff: Option<Vec<PathBuf>>,
     /// Name what there is to choose from.
     #[arg(long)]
     pub(crate) list: Option<ListName>,

@@ -1,5 +1,7 @@
 //! `nestray inspect`.
 
+mod diff;
+mod explain;
 mod list;
 pub(crate) mod pilot;
 mod plan;
@@ -17,6 +19,9 @@ use crate::progress::Progress;
 use crate::{input, output};
 
 pub(crate) fn run(args: &InspectArgs, talk: &Talk) -> Result<(), Failure> {
+    if let Some([first, second]) = args.diff.as_deref() {
+        return said(&diff::report(first, second)?, args);
+    }
     let report = match (&args.list, &args.scene) {
         (Some(list), _) => list::report(*list),
         (None, Some(name)) if is_plan(name) => plan::report(Path::new(name), args)?,
@@ -24,10 +29,17 @@ pub(crate) fn run(args: &InspectArgs, talk: &Talk) -> Result<(), Failure> {
             let choice = input::choose(args.plan.as_deref().unwrap_or("auto"))?;
             let progress = Progress::new(talk);
             let scene = input::scene(name, &LoadOptions::default(), &progress)?;
-            scene::report(&scene, &choice, args)?
+            match &args.explain {
+                Some(path) => explain::report(&scene, &choice, path)?,
+                None => scene::report(&scene, &choice, args)?,
+            }
         }
         (None, None) => return Err(Failure::usage("a scene, a plan or --list is expected")),
     };
+    said(&report, args)
+}
+
+fn said(report: &Report, args: &InspectArgs) -> Result<(), Failure> {
     if args.json { output::say(&format!("{:#}\n", report.json)) } else { output::say(&report.text) }
 }
 

@@ -24,3 +24,5 @@ pub mod single;
 pub mod describe;
 
 pub mod optimize;
+
+pub mod explain;

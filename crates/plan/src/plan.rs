@@ -1,7 +1,10 @@
 //! Plans: meta-hierarchies written down.
 
+pub mod diff;
+
 mod fence;
 mod leaves;
+mod paths;
 
 use std::collections::BTreeMap;
 

@@ -17,6 +17,10 @@ pub(super) fn report(path: &Path, args: &InspectArgs) -> Result<Report, Failure>
         let failure = Failure::usage("--ray: a plan has no surfaces");
         return Err(failure.hint("nestray inspect SCENE --plan PLAN --ray X,Y"));
     }
+    if args.explain.is_some() {
+        let failure = Failure::usage("--explain: what a technique costs depends on the scene");
+        return Err(failure.hint("nestray inspect SCENE --plan PLAN --explain NODE"));
+    }
     let plan = input::read_plan(path)?;
     check_form(&plan).map_err(|error| input::plan_failure(&error, Some(path)))?;
     let (nests, levels) = counts(&plan);

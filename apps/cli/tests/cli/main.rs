@@ -3,6 +3,7 @@
 mod auto;
 mod bad_input;
 mod bench;
+mod explain;
 #[cfg(unix)]
 mod interrupt;
 mod optimize;
