@@ -7,6 +7,8 @@ pub(crate) mod report;
 use nestray::core::cost::CostModel;
 use nestray::io::load::LoadOptions;
 use nestray::plan::build::build;
+use nestray::plan::check::check;
+use nestray::plan::error::PlanError;
 use nestray::plan::optimize::ray_log::{RayLog, RaySet};
 use nestray::plan::optimize::{Observer, Optimized, Options, optimize};
 use nestray::plan::single::{AUTO, single};
@@ -31,14 +33,20 @@ pub(crate) fn run(args: &OptimizeArgs, talk: &Talk) -> Result<(), Failure> {
     for path in std::iter::once(&args.output).chain(&args.report) {
         output::check(path)?;
     }
+    let start = args.start.as_deref().map(input::read_plan).transpose()?;
     let scene = input::scene(&args.scene, &LoadOptions::default(), &progress)?;
     let log = log(&scene, &args.weights, args.rays.unwrap_or(RAYS))?;
+    let fits =
+        |plan| check(plan, &scene).map_err(|e| input::plan_failure(&e, args.start.as_deref()));
+    start.as_ref().map_or(Ok(()), fits)?;
     let (evaluations, time) = match args.budget {
         Budget::Time(time) => (None, Some(time)),
         Budget::Plans(plans) => (Some(plans), None),
     };
     let options = Options {
         techniques: args.techniques.clone(),
+        start,
+        pins: args.pin.clone(),
         evaluations,
         time,
         seed: args.seed,
@@ -74,8 +82,12 @@ pub(crate) fn search(
     progress: Progress,
 ) -> Result<Optimized, Failure> {
     let screen = Screen { watching: progress.watch("optimize"), options };
-    optimize(scene, log, CostModel::usual(), options, &screen)
-        .map_err(|error| Failure::usage(error).hint("nestray inspect --list techniques"))
+    optimize(scene, log, CostModel::usual(), options, &screen).map_err(|error| match error {
+        PlanError::At { problem, path } if path == "pins" => {
+            Failure::usage(format!("--pin: {problem}"))
+        }
+        error => Failure::usage(error).hint("nestray inspect --list techniques"),
+    })
 }
 
 /// Rays from the first camera and from what they hit, as heavy as asked for.

@@ -15,6 +15,7 @@ pub mod score;
 pub mod start;
 
 mod archive;
+mod pins;
 
 use std::time::{Duration, Instant};
 
@@ -24,6 +25,7 @@ use nestray_scene::scene::Scene;
 use self::anneal::Tempering;
 use self::archive::Archive;
 use self::measure::{Finalist, Measured};
+use self::pins::Pins;
 use self::ray_log::RayLog;
 use self::score::{Score, Scorer};
 use crate::error::PlanError;
@@ -35,6 +37,11 @@ use crate::plan::Plan;
 pub struct Options {
     /// Techniques that plans may use; all if there are none.
     pub techniques: Vec<String>,
+    /// A plan to begin with, besides the usual ones.
+    pub start: Option<Plan>,
+    /// Paths of nodes of that plan that every other must hold as they are; the usual plans, which do
+    /// not, are then not tried.
+    pub pins: Vec<String>,
     /// Most plans to try; the same number finds the same plans on every machine.
     pub evaluations: Option<usize>,
     /// Most time to try them; what is timed in the end comes on top.
@@ -54,6 +61,8 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             techniques: Vec::new(),
+            start: None,
+            pins: Vec::new(),
             evaluations: None,
             time: Some(Duration::from_secs(30)),
             seed: 0,
@@ -108,7 +117,8 @@ pub trait Observer: Sync {
 /// The fastest plan for a scene and the rays of `log`.
 ///
 /// # Errors
-/// If the parts of the scene do not fit together, a technique is not known, or none can serve.
+/// If the parts of the scene do not fit together, a technique or a pinned node is not known, none can
+/// serve, or the plan to begin with does not fit the scene.
 pub fn optimize(
     scene: &Scene,
     log: &RayLog,
@@ -118,13 +128,20 @@ pub fn optimize(
 ) -> Result<Optimized, PlanError> {
     let begun = Instant::now();
     let allowed = start::allowed(&options.techniques)?;
+    let pins = Pins::new(options.start.as_ref(), &options.pins)?;
     let (search_log, timed_log) = log.halves();
     let scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
     let mut archive = Archive::new(&search_log);
     let limits = Limits { begun, options, observer };
-    start::singles(scene, &allowed, &scorer, &limits, &mut archive)?;
+    if let Some(plan) = &options.start {
+        start::given(plan, scene, &scorer, &mut archive)?;
+    }
+    if pins.are_none() {
+        start::singles(scene, &allowed, &scorer, &limits, &mut archive)?;
+    }
     let mut trace = Vec::new();
-    Tempering::new(scene, &allowed, options.seed).run(&scorer, &limits, &mut archive, &mut trace);
+    let tempering = Tempering { scene, allowed: &allowed, pins: &pins, seed: options.seed };
+    tempering.run(&scorer, &limits, &mut archive, &mut trace);
     let search_seconds = begun.elapsed().as_secs_f64();
     let evaluations = archive.evaluations();
     let (expected, candidates) = (archive.cheapest(), archive.candidates());

@@ -27,6 +27,13 @@ pub(crate) struct OptimizeArgs {
     /// Techniques that plans may use; all if none is named.
     #[arg(long, value_name = "TECHNIQUE,…", value_delimiter = ',')]
     pub(crate) techniques: Vec<String>,
+    /// A plan to begin with, besides the usual ones.
+    #[arg(long, value_name = "PLAN")]
+    pub(crate) start: Option<PathBuf>,
+    /// Nodes of `--start` that every plan must hold as they are, by their paths, as
+    /// `root/nest/children/1`; the usual plans, which do not, are then not tried.
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',', requires = "start")]
+    pub(crate) pin: Vec<String>,
     /// How many rays of each kind come with each other: camera, shadow, reflect, diffuse, chords.
     #[arg(
         long,

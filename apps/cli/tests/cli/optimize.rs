@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::program::nestray;
+use crate::program::{Folder, nestray};
 
 /// A small search: as many plans, no time.
 const SEARCH: &[&str] =
@@ -56,6 +56,24 @@ fn a_plan_is_found_that_serves_its_scene_and_no_other() {
     nestray(&[&render[..], &["--resolution", "8x8", "--spp", "1"]].concat()).succeeds();
     let other = ["render", "builtin:tetra@2", "-o", &picture, "--plan", &plan];
     nestray(&other).fails(3, &["made for the scene"]);
+}
+
+#[test]
+fn a_search_begins_with_a_plan_and_keeps_what_is_pinned() {
+    let folder = Folder::new();
+    let text = r#"{ "version": 1, "root": { "nest": { "technique": "grid", "children": [
+        { "nest": { "technique": "octree", "children": [ { "pick": 0 } ] } } ] } } }"#;
+    let (start, found) = (folder.write("start.json", text), folder.path("found.json"));
+    let search =
+        |more: &[&str]| nestray(&[SEARCH, &["-o", &found, "--start", &start], more].concat());
+    search(&["--pin", "root/nest/children/0"]).succeeds();
+    let found = std::fs::read_to_string(&found).expect("it was written");
+    assert!(found.contains("octree"), "{found}");
+    search(&["--pin", "root/nest/children/1"]).fails(2, &["--pin", "\"root/nest/children/0\""]);
+    let other = text.replace("\"pick\": 0", "\"pick\": 7");
+    let other = folder.write("other.json", &other);
+    nestray(&[SEARCH, &["-o", "never.json", "--start", &other]].concat()).fails(3, &["other.json"]);
+    nestray(&[SEARCH, &["-o", "never.json", "--pin", "root"]].concat()).fails(2, &["--start"]);
 }
 
 #[test]

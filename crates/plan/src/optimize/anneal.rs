@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use super::Limits;
 use super::archive::{Archive, Goal};
 use super::moves::Move;
+use super::pins::Pins;
 use super::score::Scorer;
 use super::start::tell;
 use crate::check::check;
@@ -48,10 +49,11 @@ const IDLE: usize = 40;
 
 /// Replicas of all goals.
 #[derive(Debug)]
-pub(crate) struct Tempering<'a> {
-    scene: &'a Scene,
-    allowed: &'a [&'static str],
-    seed: u64,
+pub(super) struct Tempering<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) allowed: &'a [&'static str],
+    pub(super) pins: &'a Pins,
+    pub(super) seed: u64,
 }
 
 /// One plan on its way.
@@ -70,13 +72,9 @@ struct Proposal {
     hash: String,
 }
 
-impl<'a> Tempering<'a> {
-    pub(crate) fn new(scene: &'a Scene, allowed: &'a [&'static str], seed: u64) -> Self {
-        Self { scene, allowed, seed }
-    }
-
+impl Tempering<'_> {
     /// Goes on until the limits are reached.
-    pub(crate) fn run(
+    pub(super) fn run(
         &self,
         scorer: &Scorer<'_>,
         limits: &Limits<'_>,
@@ -125,6 +123,9 @@ impl<'a> Tempering<'a> {
         (0..TRIES).find_map(|_| {
             let step = Move::random(&mut replica.numbers);
             let plan = step.apply(current, self.scene, self.allowed, &mut replica.numbers)?;
+            if !self.pins.are_in(&plan) {
+                return None;
+            }
             check(&plan, self.scene).ok()?;
             let hash = plan.hash();
             Some(Proposal { step, plan, hash })

@@ -25,6 +25,8 @@ pub(crate) struct Archive {
     log: RayLog,
     tried: Vec<Tried>,
     by_hash: BTreeMap<String, Option<usize>>,
+    /// The number of the plan that somebody had already.
+    given: Option<usize>,
 }
 
 /// What a search tries to make cheap: all rays, or those of one set.
@@ -42,7 +44,7 @@ const HOPE: f64 = 20.0;
 
 impl Archive {
     pub(crate) fn new(log: &RayLog) -> Self {
-        Self { log: log.clone(), tried: Vec::new(), by_hash: BTreeMap::new() }
+        Self { log: log.clone(), tried: Vec::new(), by_hash: BTreeMap::new(), given: None }
     }
 
     /// Plans that were tried, also those that cannot be built.
@@ -73,6 +75,11 @@ impl Archive {
         });
         self.by_hash.insert(plan.hash(), number);
         number
+    }
+
+    /// Takes note of a plan that is timed in any case.
+    pub(crate) fn add_given(&mut self, plan: Plan, score: Score) {
+        self.given = self.add(plan, Some(score), None);
     }
 
     pub(crate) fn get(&self, number: usize) -> &Tried {
@@ -131,6 +138,7 @@ impl Archive {
             self.tried[i].single.is_some() && goals.iter().any(close)
         };
         let mut numbers: BTreeSet<usize> = (0..self.tried.len()).filter(|&i| has_hope(i)).collect();
+        numbers.extend(self.given);
         for goal in self.goals() {
             numbers.extend(self.best(goal).into_iter().take(BEST));
         }
@@ -139,7 +147,11 @@ impl Archive {
             .map(|number| {
                 let Tried { plan, score, single } = &self.tried[number];
                 Finalist {
-                    name: single.clone().unwrap_or_else(|| format!("plan {number}")),
+                    name: match single {
+                        Some(name) => name.clone(),
+                        None if self.given == Some(number) => "as given".into(),
+                        None => format!("plan {number}"),
+                    },
                     plan: plan.clone(),
                     predicted: Some(score.clone()),
                     is_single: single.is_some(),

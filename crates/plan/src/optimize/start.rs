@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::Limits;
 use super::archive::{Archive, Goal};
 use super::score::Scorer;
+use crate::check::check;
 use crate::error::{PlanError, Problem};
 use crate::plan::Plan;
 use crate::presets;
@@ -25,6 +26,24 @@ pub(super) fn allowed(names: &[String]) -> Result<Vec<&'static str>, PlanError> 
     }
     let is_allowed = |name: &&str| names.is_empty() || names.iter().any(|other| other == name);
     Ok(registry::names().filter(is_allowed).collect())
+}
+
+/// Tries the plan that somebody has already.
+///
+/// # Errors
+/// If it does not fit the scene.
+pub(super) fn given(
+    plan: &Plan,
+    scene: &Scene,
+    scorer: &Scorer<'_>,
+    archive: &mut Archive,
+) -> Result<(), PlanError> {
+    check(plan, scene)?;
+    // What is found is marked in the end.
+    let plan = Plan { scene: None, ..plan.clone() };
+    let score = scorer.score(&plan)?;
+    archive.add_given(plan, score);
+    Ok(())
 }
 
 /// Techniques that are most often good, each after its own fashion: they come first.

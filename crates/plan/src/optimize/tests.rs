@@ -10,6 +10,8 @@ use super::ray_log::{RayLog, RaySet};
 use super::*;
 use crate::build::build;
 use crate::check::check;
+use crate::plan::Node;
+use crate::select::{Selection, Term};
 use crate::single::{AUTO, single};
 
 struct Nobody;
@@ -164,4 +166,44 @@ fn an_unknown_technique_is_refused_by_name() {
     let log = log(&scene, 64);
     let error = optimize(&scene, &log, CostModel::usual(), &options, &Nobody).expect_err("no gird");
     assert!(error.to_string().contains("gird"), "{error}");
+}
+
+#[test]
+fn what_is_pinned_stays_in_every_plan() {
+    let scene = generate("gears", Some(2)).expect("there is one");
+    let part = Node::nest("octree", vec![pick(0)]);
+    let rest = vec![part.clone(), Node::rest()];
+    let start = Plan::new(Node::nest("grid", rest));
+    let pins = vec!["root/nest/children/0".to_owned()];
+    let options = Options { start: Some(start.clone()), pins, ..options(60) };
+    let found = found(&scene, &options);
+    assert!(found.evaluations > 20, "{}", found.evaluations);
+    let holds = |plan: &Plan| plan.nodes().iter().any(|(_, node)| **node == part);
+    assert!(found.candidates.iter().all(|one| holds(&one.plan)));
+    assert!(found.finalists.iter().all(|one| holds(&one.finalist.plan)) && holds(&found.plan));
+    assert!(found.finalists.iter().any(|one| one.finalist.name == "as given"));
+    let differ = |one: &Candidate| one.plan.root != start.root;
+    assert!(found.candidates.iter().any(differ), "all else may change");
+}
+
+fn pick(number: usize) -> Node {
+    Node::Pick(Selection(vec![Term::Number(number)]))
+}
+
+#[test]
+fn a_given_plan_is_tried_with_the_others_and_must_fit() {
+    let scene = generate("balls", Some(1)).expect("there is one");
+    let start = Plan::new(Node::nest("bvh", Vec::new()));
+    let search = |start: Plan, pin: Option<&str>| {
+        let pins = pin.into_iter().map(str::to_owned).collect();
+        let options = Options { start: Some(start), pins, ..options(5) };
+        optimize(&scene, &log(&scene, 64), CostModel::usual(), &options, &Nobody)
+    };
+    assert!(search(start, None).is_err(), "it holds nothing");
+    let grid = single("grid", Default::default(), &scene).expect("it is sound");
+    let found = search(grid.clone(), None).expect("it fits");
+    assert!(found.finalists.iter().any(|one| one.finalist.name == "as given"));
+    assert!(found.finalists.iter().any(|one| one.finalist.name == "bvh"));
+    let error = search(grid, Some("rot")).expect_err("there is none").to_string();
+    assert!(error.contains("unknown node \"rot\"") && error.contains("\"root\""), "{error}");
 }
