@@ -30,9 +30,12 @@ fn lines() -> u64 {
 /// Standard deviations that chance may be off.
 const ALLOWED: f64 = 4.0;
 
+/// Whether a ray meets it.
+type Meets = dyn Fn(&Ray, &mut Scratch) -> bool;
+
 /// A convex body, and what its surface is.
 struct Body {
-    meets: Box<dyn Fn(&Ray, &mut Scratch) -> bool>,
+    meets: Box<Meets>,
     surface: f64,
 }
 

@@ -36,7 +36,7 @@ pub struct Options {
     pub seed: u64,
     /// How many threads; 0 for as many as the machine has.
     pub threads: usize,
-    /// Rays per batch, at least 1.
+    /// Rays per batch, at least 1; 1 asks for one ray at a time, not in batches.
     pub wave: usize,
     /// Which camera of the scene.
     pub camera: usize,

@@ -174,7 +174,12 @@ impl Job<'_> {
         let mut film = TileFilm::new(tile);
         let samples = self.options.samples as usize;
         let all = tile.pixels() * samples;
-        let wave = self.integrator.starts(self.options.wave);
+        // Rays that are traced one at a time are made as many at a time as usual.
+        let wave = match self.options.wave {
+            1 => Options::default().wave,
+            wave => wave,
+        };
+        let wave = self.integrator.starts(wave);
         let mut done = 0;
         while done < all && !self.progress.stopped() {
             let end = done.saturating_add(wave).min(all);

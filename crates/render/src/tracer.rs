@@ -52,8 +52,14 @@ impl<'a> Tracer<'a> {
     pub(crate) fn closest(&mut self, rays: &[Ray], hits: &mut Vec<Hit>) {
         hits.clear();
         hits.extend(rays.iter().map(|ray| Hit::none(ray.t_max())));
-        for (rays, hits) in rays.chunks(self.wave).zip(hits.chunks_mut(self.wave)) {
-            self.world.closest_hits(rays, hits, &mut self.scratch);
+        if self.wave == 1 {
+            for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
+                self.world.closest_hit(ray, hit, &mut self.scratch);
+            }
+        } else {
+            for (rays, hits) in rays.chunks(self.wave).zip(hits.chunks_mut(self.wave)) {
+                self.world.closest_hits(rays, hits, &mut self.scratch);
+            }
         }
         for (ray, hit) in rays.iter().zip(hits) {
             self.counts.one(ray.kind(), hit.is_some());
@@ -99,8 +105,14 @@ impl<'a> Tracer<'a> {
     /// How much gets through to the end of each ray, from 0 to 1.
     pub(crate) fn passing(&mut self, rays: &[Ray], passing: &mut Vec<f32>) {
         let mut blocked = vec![false; rays.len()];
-        for (rays, blocked) in rays.chunks(self.wave).zip(blocked.chunks_mut(self.wave)) {
-            self.world.any_hits(rays, blocked, &mut self.scratch);
+        if self.wave == 1 {
+            for (ray, blocked) in rays.iter().zip(&mut blocked) {
+                *blocked = self.world.any_hit(ray, &mut self.scratch);
+            }
+        } else {
+            for (rays, blocked) in rays.chunks(self.wave).zip(blocked.chunks_mut(self.wave)) {
+                self.world.any_hits(rays, blocked, &mut self.scratch);
+            }
         }
         for (ray, &blocked) in rays.iter().zip(&blocked) {
             self.counts.one(ray.kind(), blocked);

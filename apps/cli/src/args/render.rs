@@ -60,6 +60,9 @@ pub(crate) struct RenderArgs {
     /// How many threads; all of the machine if 0.
     #[arg(long, default_value_t = 0, value_parser = super::values::threads)]
     pub(crate) threads: usize,
+    /// Rays that are traced together; 1 is one at a time. The picture is the same.
+    #[arg(long, default_value_t = 1024, value_name = "RAYS", value_parser = super::values::batch)]
+    pub(crate) batch: usize,
     /// Which camera, by number or name.
     #[arg(long)]
     pub(crate) camera: Option<String>,

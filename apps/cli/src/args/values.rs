@@ -73,6 +73,13 @@ pub(super) fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
+pub(super) fn batch(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (1..=65_536).contains(&count) => Ok(count),
+        _ => Err("1 to 65536 rays".into()),
+    }
+}
+
 pub(super) fn rays(text: &str) -> Result<usize, String> {
     match text.replace('_', "").parse() {
         Ok(count) if (1..=100_000_000).contains(&count) => Ok(count),

@@ -43,6 +43,7 @@ pub(super) fn options(args: &RenderArgs, scene: &Scene) -> Result<Options, Failu
     Ok(Options {
         clamp: clamp(args),
         seed: args.seed,
+        wave: args.batch,
         threads: args.threads,
         camera,
         layers: args.output.iter().any(|path| keeps(path)),

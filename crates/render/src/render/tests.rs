@@ -79,7 +79,7 @@ fn the_picture_depends_on_nothing_but_scene_and_options() {
         for threads in [2, 3, 7] {
             check(format!("{threads} threads"), Options { threads, ..options(integrator) });
         }
-        for wave in [1, 7, 64, 4096] {
+        for wave in [1, 2, 7, 64, 4096] {
             check(format!("waves of {wave}"), Options { wave, ..options(integrator) });
         }
         for level in Level::available() {
