@@ -35,6 +35,11 @@ const PART: f64 = 0.015;
 /// techniques take thirty times as long to build, and none is broken off.
 const LEAST: f64 = 0.3;
 const BUILDS: f64 = 150.0;
+/// What is tried where there is no time for a search; so many times as long as the default it may
+/// take to build, and that part of the predicted time.
+const QUALITY: &str = "sbvh";
+const TRY: f64 = 12.0;
+const PART_TO_TRY: f64 = 0.02;
 /// No search is longer, in seconds: more finds little more.
 const MOST: f64 = 600.0;
 /// Pictures of fewer samples are not worth a pilot.
@@ -116,7 +121,10 @@ impl Auto<'_> {
         let (sample, rays) = pilot.run(self.scene, &world)?;
         let tried = Tried { plan, world, taken: Taken { sample, build }, rays };
         match self.budget(&tried.taken) {
-            Ok(budget) => self.search(key, tried, &pilot, budget),
+            Ok(budget) => self.search(key, tried, &pilot, Some(budget)),
+            Err(_) if self.asked.is_none() && self.is_worth_a_try(&tried.taken) => {
+                self.search(key, tried, &pilot, None)
+            }
             Err(why) => {
                 let why = format!("{AUTO}, not searched: {why}");
                 Ok(Chosen { plan: tried.plan, ready: Some(tried.world), why })
@@ -139,19 +147,31 @@ impl Auto<'_> {
         Some(Chosen { plan, ready: None, why })
     }
 
-    /// Searches, and holds what was found against the default.
+    /// Whether there is time to build the one plan that is better most often, and to time it.
+    fn is_worth_a_try(&self, default: &Taken) -> bool {
+        TRY * default.build < PART_TO_TRY * self.seconds(default)
+    }
+
+    /// Searches, or without a budget takes the plan that is better most often, and holds what was
+    /// found against the default.
     fn search(
         &self,
         key: Key,
         tried: Tried,
         pilot: &Pilot,
-        budget: Duration,
+        budget: Option<Duration>,
     ) -> Result<Chosen, Failure> {
         let begun = Instant::now();
-        let found = self.found(&tried, pilot, budget)?;
+        let found = match budget {
+            Some(budget) => self.found(&tried, pilot, budget)?,
+            None => Some(single(QUALITY, Default::default(), self.scene).map_err(failure)?),
+        };
         let searched = begun.elapsed().as_secs_f64();
         let predicted = self.seconds(&tried.taken);
-        let took = format!("searched for {searched:.1} s of a predicted {predicted:.1} s");
+        let took = match budget {
+            Some(_) => format!("searched for {searched:.1} s of a predicted {predicted:.1} s"),
+            None => format!("{QUALITY} tried, the picture takes about {predicted:.1} s"),
+        };
         stop::check()?;
         let same = Plan { scene: None, ..found.clone().unwrap_or_else(|| tried.plan.clone()) };
         let mut entry = Entry {
@@ -170,7 +190,7 @@ impl Auto<'_> {
             let begun = Instant::now();
             let world = build(&same, self.scene).map_err(failure)?;
             let build = begun.elapsed().as_secs_f64();
-            let [default, best] = self.in_turns(pilot, [&tried.world, &world])?;
+            let [default, best] = pilot.in_turns(self.scene, [&tried.world, &world])?;
             entry.default.sample = default;
             let taken = Taken { sample: best, build };
             if self.seconds(&entry.default) > FASTER * self.seconds(&taken) {
@@ -215,17 +235,6 @@ impl Auto<'_> {
         let search = || optimize(self.scene, &log, CostModel::usual(), &options, &deadline);
         let found = input::pool(self.options.threads)?.install(search).map_err(failure)?;
         Ok(Some(found.plan))
-    }
-
-    /// What samples take with two plans, by the shorter of two turns each.
-    fn in_turns(&self, pilot: &Pilot, worlds: [&DynObject; 2]) -> Result<[f64; 2], Failure> {
-        let mut least = [f64::INFINITY; 2];
-        for _ in 0..2 {
-            for (least, world) in least.iter_mut().zip(worlds) {
-                *least = least.min(pilot.run(self.scene, world)?.0);
-            }
-        }
-        Ok(least)
     }
 
     /// How long to search, or why not at all.

@@ -70,6 +70,21 @@ impl Pilot {
         Ok(())
     }
 
+    /// What samples take with two plans, by the shorter of two turns each.
+    pub(super) fn in_turns(
+        &self,
+        scene: &Scene,
+        worlds: [&DynObject; 2],
+    ) -> Result<[f64; 2], Failure> {
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..2 {
+            for (least, world) in least.iter_mut().zip(worlds) {
+                *least = least.min(self.run(scene, world)?.0);
+            }
+        }
+        Ok(least)
+    }
+
     /// Seconds that a sample takes, and the rays of all.
     pub(super) fn run(
         &self,
