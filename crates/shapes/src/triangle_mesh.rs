@@ -7,6 +7,7 @@ mod kernel;
 mod layout;
 mod leaf;
 mod part;
+mod polygon;
 mod shear;
 mod surface;
 mod test;

@@ -6,6 +6,8 @@ use glam::Vec3A;
 use nestray_core::aabb::Aabb;
 use nestray_core::ray::Ray;
 
+use super::polygon::Polygon;
+
 /// Vertices and the triangles between them, checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Triangles {
@@ -248,61 +250,5 @@ impl Triangles {
             return Aabb::EMPTY;
         }
         crate::shape::bounds_from(low, high).meet(whole.meet(*cell))
-    }
-}
-
-/// A part of a triangle: each of six cuts adds a corner, rarely more by rounding.
-#[derive(Clone, Copy)]
-struct Polygon {
-    corners: [[f64; 3]; 12],
-    count: usize,
-    /// Whether a corner was left out.
-    is_full: bool,
-}
-
-impl Polygon {
-    const EMPTY: Self = Self { corners: [[0.0; 3]; 12], count: 0, is_full: false };
-
-    fn new(triangle: [[f32; 3]; 3]) -> Self {
-        let mut whole = Self::EMPTY;
-        for corner in triangle {
-            whole.push(corner.map(f64::from));
-        }
-        whole
-    }
-
-    fn corners(&self) -> &[[f64; 3]] {
-        &self.corners[..self.count]
-    }
-
-    fn push(&mut self, corner: [f64; 3]) {
-        let Some(next) = self.corners.get_mut(self.count) else {
-            self.is_full = true;
-            return;
-        };
-        *next = corner;
-        self.count += 1;
-    }
-
-    /// Makes `kept` the part on one side of a plane across an axis [Sutherland 74].
-    #[inline]
-    fn cut(&self, axis: usize, wall: f64, side: f64, kept: &mut Self) {
-        (kept.count, kept.is_full) = (0, self.is_full);
-        let corners = self.corners();
-        let Some(mut a) = corners.last() else { return };
-        let mut from = (a[axis] - wall) * side;
-        for b in corners {
-            let to = (b[axis] - wall) * side;
-            if (from < 0.0 && to > 0.0) || (from > 0.0 && to < 0.0) {
-                let part = from / (from - to);
-                let mut between = [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part);
-                between[axis] = wall;
-                kept.push(between);
-            }
-            if to >= 0.0 {
-                kept.push(*b);
-            }
-            (a, from) = (b, to);
-        }
     }
 }
