@@ -2,14 +2,16 @@
 //! writes `docs/performance.md`.
 //!
 //! `nestray-benches [--scenes FOLDER] [--results FOLDER] [--docs FOLDER] [--only NAME,…]
-//! [--growth] [--keep] [-- OPTIONS…]`: the folder of shared scenes, where measurements are put and
-//! where the page; only some scenes; how things grow with the size of a scene, too; measurements
-//! that are there already are kept; what `nestray bench` is told besides, as `--rounds 9`. Without
+//! [--growth] [--pictures] [--keep] [-- OPTIONS…]`: the folder of shared scenes, where measurements
+//! are put and where the page; only some scenes; how things grow with the size of a scene, too, and
+//! what batches bring to pictures; measurements that are there already are kept; what `nestray
+//! bench` is told besides, as `--rounds 9`. Without
 //! `--docs` no page is written, only measurements.
 
 mod growth;
 mod machine;
 mod page;
+mod pictures;
 mod plot;
 mod reach;
 mod results;
@@ -29,6 +31,7 @@ struct Args {
     docs: Option<PathBuf>,
     only: Vec<String>,
     growth: bool,
+    pictures: bool,
     keep: bool,
     /// For `nestray bench`.
     options: Vec<String>,
@@ -51,6 +54,7 @@ fn args() -> Result<Args, String> {
         docs: None,
         only: Vec::new(),
         growth: false,
+        pictures: false,
         keep: false,
         options: Vec::new(),
     };
@@ -63,6 +67,7 @@ fn args() -> Result<Args, String> {
             "--docs" => args.docs = Some(next()?.into()),
             "--only" => args.only = next()?.split(',').map(Into::into).collect(),
             "--growth" => args.growth = true,
+            "--pictures" => args.pictures = true,
             "--keep" => args.keep = true,
             "--" => args.options = words.by_ref().collect(),
             _ => return Err(format!("{word} is no option: see the head of benches/src/main.rs")),
@@ -77,12 +82,22 @@ fn beside() -> PathBuf {
     own.parent().and_then(Path::parent).map_or_else(|| "target".into(), Path::to_owned)
 }
 
+fn program() -> PathBuf {
+    beside().join("release/nestray").with_extension(env::consts::EXE_EXTENSION)
+}
+
 fn run(args: &Args) -> Result<(), String> {
     fs::create_dir_all(&args.results).map_err(|error| error.to_string())?;
-    let mut all = Vec::new();
+    let (mut all, mut rendered) = (Vec::new(), Vec::new());
     for scene in scenes::ALL.iter().filter(|scene| asked(args, scene.name)) {
         match scene.prepare(&args.scenes, &args.results.join("scenes")) {
-            Ok(named) => all.push(measure(args, scene, &named)?),
+            Ok(named) => {
+                all.push(measure(args, scene, &named)?);
+                if args.pictures && pictures::SCENES.contains(&scene.name) {
+                    let of = (scene.name, &*named);
+                    rendered.extend(pictures::measure(&program(), of, &args.results, args.keep)?);
+                }
+            }
             Err(missing) => eprintln!("{} is left out: {missing}", scene.name),
         }
     }
@@ -97,7 +112,7 @@ fn run(args: &Args) -> Result<(), String> {
     }
     if let Some(docs) = &args.docs {
         let picture = growth::plot(&grown);
-        let page = page::page(&all, &grown, &args.options);
+        let page = page::page(&all, &rendered, &grown, &args.options);
         let write = |name: &str, text: &str| {
             let path = docs.join(name);
             fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
@@ -121,8 +136,7 @@ fn measure(args: &Args, scene: &Scene, named: &str) -> Result<Results, String> {
     if args.keep && output.is_file() {
         return Results::read(scene.name, &output);
     }
-    let program = beside().join("release/nestray").with_extension(env::consts::EXE_EXTENSION);
-    let mut command = Command::new(program);
+    let mut command = Command::new(program());
     command.args(["bench", named, "--plans", scene.plans, "--vs", scene.peers, "--quiet", "-o"]);
     command.arg(&output);
     let done = command.args(&args.options).status();

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::pictures::{self, Picture};
 use crate::results::{BATCH, HIGH, Results, SETS};
 use crate::{growth, machine, reach};
 
@@ -42,7 +43,12 @@ than a thousandth and a millionth of the diagonal.
 
 ";
 
-pub(crate) fn page(all: &[Results], grown: &[Results], options: &[String]) -> String {
+pub(crate) fn page(
+    all: &[Results],
+    rendered: &[Picture],
+    grown: &[Results],
+    options: &[String],
+) -> String {
     let mut text = String::from(HEAD);
     text.push_str("| | |\n|---|---|\n");
     for [name, fact] in machine::describe() {
@@ -67,6 +73,9 @@ pub(crate) fn page(all: &[Results], grown: &[Results], options: &[String]) -> St
     );
     text.push_str("calls (one ray, or packets of 16).\n\n");
     text.push_str(&ratios(all));
+    if !rendered.is_empty() {
+        text.push_str(&pictures::section(rendered));
+    }
     if !grown.is_empty() {
         text.push_str(&growth::section(grown));
     }

@@ -13,7 +13,7 @@ pub(crate) fn bench(args: &[String]) -> Result<(), String> {
     let mut command = Command::new(program);
     command.current_dir(root());
     run(if args.is_empty() {
-        command.args(["--docs", "docs", "--growth"])
+        command.args(["--docs", "docs", "--growth", "--pictures"])
     } else {
         command.args(args)
     })
