@@ -164,19 +164,19 @@ impl Packet {
     #[inline(always)]
     pub fn face<S: Simd>(&mut self, simd: S, reach: f32, slack: f32) {
         let main = self.beam.axis;
-        let size = |a: S::F32| simd.max(a, simd.sub(simd.splat(0.0), a));
         for from in GROUPS {
             let part = |lanes: &Lanes| simd.load(eight(lanes, from));
             let origin = [part(&self.origin[0]), part(&self.origin[1]), part(&self.origin[2])];
-            let far = simd.max(simd.max(size(origin[0]), size(origin[1])), size(origin[2]));
+            let far =
+                simd.max(simd.max(simd.abs(origin[0]), simd.abs(origin[1])), simd.abs(origin[2]));
             let off = simd.mul(simd.max(far, simd.splat(reach)), simd.splat(slack));
-            let least = simd.mul(size(part(&self.dir[main])), simd.splat(1e-9));
+            let least = simd.mul(simd.abs(part(&self.dir[main])), simd.splat(1e-9));
             for (axis, origin) in origin.into_iter().enumerate() {
                 let dir = part(&self.dir[axis]);
-                let small = simd.le(size(dir), least);
+                let small = simd.le(simd.abs(dir), least);
                 let dir = if small == 0 { dir } else { kept_off(simd, dir, least) };
                 let inverse = simd.div(simd.splat(1.0), dir);
-                let (middle, off) = (simd.mul(origin, inverse), simd.mul(size(inverse), off));
+                let (middle, off) = (simd.mul(origin, inverse), simd.mul(simd.abs(inverse), off));
                 *eight_mut(&mut self.clip.inverse[axis], from) = simd.array(inverse);
                 *eight_mut(&mut self.clip.near[axis], from) = simd.array(simd.add(middle, off));
                 *eight_mut(&mut self.clip.far[axis], from) = simd.array(simd.sub(middle, off));

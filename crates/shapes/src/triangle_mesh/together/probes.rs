@@ -61,7 +61,6 @@ impl Probes {
         let [x, y, z] = self.axes;
         self.is_forward = !packet.beam.backward;
         self.moves = [0; 2];
-        let size = |a: S::F32| simd.max(a, simd.sub(simd.splat(0.0), a));
         for from in GROUPS {
             let part = |lanes: &Lanes| simd.load(eight(lanes, from));
             let inverse = simd.div(simd.splat(1.0), part(&packet.dir[z]));
@@ -75,11 +74,11 @@ impl Probes {
                 let origin = part(&packet.origin[self.axes[axis]]);
                 *eight_mut(&mut self.origin[axis], from) = simd.array(origin);
                 *eight_mut(&mut self.slope[axis], from) = simd.array(slope);
-                far = simd.max(far, size(origin));
+                far = simd.max(far, simd.abs(origin));
             }
             *eight_mut(&mut self.reach, from) = simd.array(simd.add(far, far));
             for (moves, slope) in self.moves.iter_mut().zip(slopes) {
-                *moves |= (!simd.le(size(slope), simd.splat(STILL)) & 255) << from;
+                *moves |= (!simd.le(simd.abs(slope), simd.splat(STILL)) & 255) << from;
             }
         }
         self.number = [f32::from_bits(Hit::NOTHING); RAYS];
