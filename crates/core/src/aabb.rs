@@ -179,14 +179,11 @@ impl Clip {
     pub fn with_slack(ray: &Ray, reach: f32, slack: f32) -> Self {
         let origin = ray.origin();
         let inverse = ray.inverse_dir();
-        let slack = inverse.abs() * (origin.abs().max_element().max(reach) * slack);
+        let farthest = origin.abs().max_element();
+        let reach = if farthest > reach { farthest } else { reach };
+        let slack = inverse.abs() * (reach * slack);
         let middle = origin * inverse;
-        Self {
-            inverse,
-            near: middle + slack,
-            far: middle - slack,
-            t_min: ray.t_min().max(0.0) + 0.0,
-        }
+        Self { inverse, near: middle + slack, far: middle - slack, t_min: ray.t_min() }
     }
 
     /// Where the ray is inside `bounds`, as `(enter, leave)` clipped to its range and to

@@ -2,6 +2,7 @@
 
 mod barrel;
 mod divide;
+mod few;
 mod leaf;
 mod members;
 mod method;
@@ -48,6 +49,8 @@ pub struct Accel<I: Index, C: Children> {
     unbounded: Vec<u32>,
     /// Children from here on were added after the last build.
     built: u32,
+    /// Whether there are children outside the index.
+    is_loose: bool,
     bounds: Aabb,
     /// What it costs by the usual prices: asked by every parent, and asking all below it
     /// again each time would take forever in a deep hierarchy of instances.
@@ -66,6 +69,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             expected: Expected::default(),
             unbounded: Vec::new(),
             built: 0,
+            is_loose: false,
             bounds: Aabb::EMPTY,
             usual_cost: OnceLock::new(),
         };
@@ -92,6 +96,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         self.usual_cost = OnceLock::new();
         self.built = self.members.children.count();
         (self.bounds, self.unbounded) = self.members.name();
+        self.is_loose = !self.unbounded.is_empty();
         (self.index, self.table) = (None, Vec::new());
         if self.members.names.count() == 0 {
             return;
@@ -264,6 +269,7 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
 impl<I: Index> Aggregate for Accel<I, Vec<DynObject>> {
     fn add_child(&mut self, child: DynObject) {
         self.usual_cost = OnceLock::new();
+        self.is_loose = true;
         let bounds = child.bounds();
         if !bounds.is_empty() {
             self.bounds = self.bounds.join(bounds);

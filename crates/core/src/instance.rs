@@ -133,7 +133,9 @@ impl<O: Object, M: Motion> Placed<O, M> {
         rays: &[Ray],
         limit: impl Fn(usize) -> Option<f32>,
     ) -> (Vec<Ray>, Vec<usize>) {
-        (0..rays.len()).filter_map(|i| Some((self.inside(&rays[i], limit(i)?)?, i))).unzip()
+        let mut all = (Vec::with_capacity(rays.len()), Vec::with_capacity(rays.len()));
+        all.extend((0..rays.len()).filter_map(|i| Some((self.inside(&rays[i], limit(i)?)?, i))));
+        all
     }
 }
 

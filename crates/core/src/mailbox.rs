@@ -52,6 +52,22 @@ impl Mailbox {
         new
     }
 
+    /// The same for the rays of a packet, a bit each: those that had not seen the child.
+    #[inline]
+    pub fn first_visits(&mut self, stamp: &mut Stamp, child: u32, count: u32, rays: u32) -> u32 {
+        if *stamp == Stamp::NONE {
+            *stamp = self.open(count.saturating_mul(u32::BITS));
+        }
+        let set = &mut self.sets[stamp.0 as usize];
+        let (word, shift) = ((child / 2) as usize, child % 2 * u32::BITS);
+        let seen = (set.bits[word] >> shift) as u32;
+        if seen == 0 {
+            set.marked.push(child * u32::BITS);
+        }
+        set.bits[word] |= u64::from(rays) << shift;
+        rays & !seen
+    }
+
     /// Gives a set back, if one was taken.
     #[inline]
     pub fn close(&mut self, stamp: Stamp) {
@@ -85,6 +101,19 @@ impl Mailbox {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_ray_of_a_packet_visits_once() {
+        let mut mailbox = Mailbox::default();
+        let mut stamp = Stamp::NONE;
+        assert_eq!(mailbox.first_visits(&mut stamp, 4, 7, 0b0110), 0b0110);
+        assert_eq!(mailbox.first_visits(&mut stamp, 5, 7, 0b0110), 0b0110);
+        assert_eq!(mailbox.first_visits(&mut stamp, 4, 7, 1 << 31 | 0b1100), 1 << 31 | 0b1000);
+        assert_eq!(mailbox.first_visits(&mut stamp, 4, 7, u32::MAX), !(1 << 31 | 0b1110));
+        mailbox.close(stamp);
+        let mut again = Stamp::NONE;
+        assert!((0..7 * 32).all(|child| mailbox.first_visit(&mut again, child, 7 * 32)));
+    }
 
     #[test]
     fn traversals_do_not_see_each_others_marks() {

@@ -1,6 +1,6 @@
 //! Rays and what they are for.
 
-use glam::{Affine3A, Vec3A};
+use glam::{Affine3A, Vec3A, Vec4};
 
 use crate::hit::{Hit, InstancePath};
 
@@ -66,10 +66,10 @@ impl Source {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Ray {
-    origin: [f32; 3],
-    t_min: f32,
-    dir: [f32; 3],
-    t_max: f32,
+    /// The origin, and `t_min`: read at once.
+    from: Vec4,
+    /// The direction, and `t_max`.
+    along: Vec4,
     time: f32,
     kind: RayKind,
     source: Source,
@@ -98,10 +98,8 @@ impl Ray {
             return Self::void(kind, 0.0);
         }
         Self {
-            origin: origin.to_array(),
-            t_min: 0.0,
-            dir: dir.to_array(),
-            t_max: f32::INFINITY,
+            from: origin.extend(0.0),
+            along: dir.extend(f32::INFINITY),
             time: 0.0,
             kind,
             source: Source::NONE,
@@ -115,7 +113,9 @@ impl Ray {
     pub fn between(self, t_min: f32, t_max: f32) -> Self {
         // Not of NaN.
         if t_min < f32::INFINITY && t_max <= f32::INFINITY {
-            Self { t_min: self.t_min.max(t_min), t_max: self.t_max.min(t_max), ..self }
+            // Not −0: then what begins there sorts as an integer does.
+            let from = self.from.with_w(self.t_min().max(t_min) + 0.0);
+            Self { from, along: self.along.with_w(self.t_max().min(t_max)), ..self }
         } else {
             Self::void(self.kind, self.time)
         }
@@ -126,10 +126,11 @@ impl Ray {
     #[must_use]
     pub fn whole(self) -> Self {
         // Only a void ray begins at infinity.
-        if self.t_min == f32::INFINITY {
+        if self.t_min() == f32::INFINITY {
             return self;
         }
-        Self { t_min: 0.0, t_max: f32::INFINITY, ..self }
+        let (from, along) = (self.from.with_w(0.0), self.along.with_w(f32::INFINITY));
+        Self { from, along, ..self }
     }
 
     /// The same ray at a moment within the shutter, in `[0, 1]`.
@@ -151,10 +152,8 @@ impl Ray {
     #[inline(never)]
     fn void(kind: RayKind, time: f32) -> Self {
         Self {
-            origin: [0.0; 3],
-            t_min: f32::INFINITY,
-            dir: [1.0, 0.0, 0.0],
-            t_max: f32::NEG_INFINITY,
+            from: Vec3A::ZERO.extend(f32::INFINITY),
+            along: Vec3A::X.extend(f32::NEG_INFINITY),
             time,
             kind,
             source: Source::NONE,
@@ -165,28 +164,28 @@ impl Ray {
     #[inline(always)]
     #[must_use]
     pub fn origin(&self) -> Vec3A {
-        Vec3A::from_array(self.origin)
+        Vec3A::from_vec4(self.from)
     }
 
     /// Direction, of any length; `t` counts in multiples of it.
     #[inline(always)]
     #[must_use]
     pub fn dir(&self) -> Vec3A {
-        Vec3A::from_array(self.dir)
+        Vec3A::from_vec4(self.along)
     }
 
-    /// Hits nearer than this are ignored; never negative.
+    /// Hits nearer than this are ignored; never negative, nor −0.
     #[inline(always)]
     #[must_use]
     pub fn t_min(&self) -> f32 {
-        self.t_min
+        self.from.w
     }
 
     /// Hits farther than this are ignored.
     #[inline(always)]
     #[must_use]
     pub fn t_max(&self) -> f32 {
-        self.t_max
+        self.along.w
     }
 
     /// Moment within the shutter, in `[0, 1]`.
@@ -243,7 +242,7 @@ impl Ray {
             Some(path) => Source { path, ..self.source },
             None => Source::NONE,
         };
-        Self { time: self.time, source, ..inside.between(self.t_min, self.t_max) }
+        Self { time: self.time, source, ..inside.between(self.t_min(), self.t_max()) }
     }
 }
 

@@ -228,8 +228,13 @@ impl Index for Beams {
     }
 
     #[inline(always)]
-    fn leads(&self, kind: RayKind, packed: bool) -> bool {
-        !self.guide.may_know(kind) && self.forest.tree.leads(kind, packed)
+    fn leads(&self, kind: RayKind) -> bool {
+        !self.guide.may_know(kind)
+    }
+
+    #[inline(always)]
+    fn leads_again(&self) -> bool {
+        self.forest.tree.leads_again()
     }
 
     #[inline(always)]

@@ -15,7 +15,6 @@ use nestray_core::aabb::{Aabb, Clip};
 use nestray_core::family::Family;
 use nestray_core::huge::Huge;
 use nestray_core::packet::Packet;
-use nestray_core::ray::RayKind;
 use nestray_core::simd::Simd;
 use nestray_core::technique::{
     Expected, Index, Lead, Leaf, Leaves, Led, Query, Repeats, Step, Visit, Walk,
@@ -202,8 +201,8 @@ impl Index for WideTree {
     }
 
     #[inline(always)]
-    fn leads(&self, _kind: RayKind, packed: bool) -> bool {
-        packed || !self.is_split
+    fn leads_again(&self) -> bool {
+        self.is_split
     }
 
     #[inline(always)]

@@ -2,7 +2,8 @@
 //!
 //! Rays that stand at nodes and rays that stand at leaves are kept on separate lists and
 //! served in turns, so that the code of one kind runs many times in a row without a branch
-//! that depends on a ray. Rays that come to an object of its own (an instance, a nested
+//! that depends on a ray. What is written per step is little: stores in flight hold up the loads
+//! behind them. Rays that come to an object of its own (an instance, a nested
 //! aggregate) are handed on one by one.
 
 use std::hint::select_unpredictable;
@@ -28,11 +29,13 @@ const FEW: usize = 8;
 /// One ray in flight: what every step touches first.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
-struct Slot<Cursor, Probe> {
+struct Slot<'a, Cursor, Probe> {
     cursor: Cursor,
     limit: f32,
     at: Step,
-    ray: u32,
+    ray: &'a Ray,
+    /// Which of all rays it is.
+    number: u32,
     stamp: Stamp,
     probe: Probe,
 }
@@ -49,8 +52,13 @@ impl Slots {
     /// Appends `slot` if `really`, without a branch.
     #[inline(always)]
     fn push_if(&mut self, slot: u32, really: bool) {
-        self.slots[self.count & (2 * RAYS - 1)] = slot;
+        self.put(self.count, slot);
         self.count += usize::from(really);
+    }
+
+    #[inline(always)]
+    fn put(&mut self, at: usize, slot: u32) {
+        self.slots[at & (2 * RAYS - 1)] = slot;
     }
 
     /// Empties the list and says how many there were; they can still be read while fewer
@@ -68,24 +76,27 @@ impl Slots {
 
 /// Where the rays in flight stand.
 struct Lists {
+    /// At a node or cell.
     onward: Slots,
+    /// At a leaf, or at the end.
+    rest: Slots,
+    /// Those at a leaf, once they are served.
     leaf: Slots,
+    /// Slots without a ray.
     free: Slots,
 }
 
 impl Lists {
     #[inline(always)]
     fn sort_in(&mut self, slot: u32, at: Step) {
-        let (onward, done) = (at.is_onward(), at.is_done());
-        self.onward.push_if(slot, onward);
-        self.leaf.push_if(slot, !onward & !done);
-        self.free.push_if(slot, done);
+        self.onward.push_if(slot, at.is_onward());
+        self.rest.push_if(slot, !at.is_onward());
     }
 }
 
 /// All rays in flight.
-struct InFlight<Cursor, Probe> {
-    slots: [Slot<Cursor, Probe>; RAYS],
+struct InFlight<'a, Cursor, Probe> {
+    slots: [Slot<'a, Cursor, Probe>; RAYS],
     trails: [Trail; RAYS],
     lists: Lists,
     /// The next ray to let in.
@@ -95,19 +106,21 @@ struct InFlight<Cursor, Probe> {
 /// Where answers go: hits, or whether something is hit.
 pub(super) type Answers<'a> = (&'a mut [Hit], &'a mut [bool]);
 
-impl<Cursor: Copy + Default, Probe: Copy + Default> InFlight<Cursor, Probe> {
+impl<'a, Cursor: Copy + Default, Probe: Copy + Default> InFlight<'a, Cursor, Probe> {
     #[inline(always)]
-    fn new(rays: usize) -> Self {
+    fn new(rays: &'a [Ray]) -> Self {
         let empty = Slot {
             cursor: Cursor::default(),
             limit: 0.0,
             at: Step::DONE,
-            ray: 0,
+            ray: &rays[0],
+            number: 0,
             stamp: Stamp::NONE,
             probe: Probe::default(),
         };
-        let mut lists = Lists { onward: Slots::NONE, leaf: Slots::NONE, free: Slots::NONE };
-        for slot in 0..RAYS.min(rays) {
+        let mut lists =
+            Lists { onward: Slots::NONE, rest: Slots::NONE, leaf: Slots::NONE, free: Slots::NONE };
+        for slot in 0..RAYS.min(rays.len()) {
             lists.free.push_if(slot as u32, true);
         }
         let trails = [const { Trail::new() }; RAYS];
@@ -131,33 +144,33 @@ impl<I: Index, C: Children> Accel<I, C> {
         if served.skip(0) >= rays.len() {
             return;
         }
-        let mut flight = InFlight::<I::Cursor, C::Probe>::new(rays.len());
+        let mut flight = InFlight::<I::Cursor, C::Probe>::new(rays);
         loop {
             self.let_in::<S, ANY>(simd, index, (rays, served), answers, (&mut flight, scratch));
-            if flight.lists.onward.count + flight.lists.leaf.count == 0 {
+            if flight.lists.onward.count + flight.lists.rest.count == 0 {
                 if flight.lists.free.count == 0 {
                     return;
                 }
                 continue;
             }
             while flight.lists.onward.count > FEW
-                || (flight.lists.onward.count > 0 && flight.lists.leaf.count == 0)
+                || (flight.lists.onward.count > 0 && flight.lists.rest.count == 0)
             {
-                self.step_all::<S, ANY>(simd, index, rays, answers, &mut flight);
+                self.step_all::<S, ANY>(simd, index, answers, &mut flight);
             }
-            self.serve_leaves::<S, ANY>(simd, index, rays, answers, (&mut flight, scratch));
+            self.serve_leaves::<S, ANY>(simd, index, answers, (&mut flight, scratch));
         }
     }
 
     /// Lets new rays in where others are done.
     #[inline(always)]
-    fn let_in<S: Simd, const ANY: bool>(
+    fn let_in<'a, S: Simd, const ANY: bool>(
         &self,
         simd: S,
         index: &I,
-        (rays, served): (&[Ray], &Served),
+        (rays, served): (&'a [Ray], &Served),
         (hits, blocked): &Answers<'_>,
-        (flight, scratch): (&mut InFlight<I::Cursor, C::Probe>, &mut Scratch),
+        (flight, scratch): (&mut InFlight<'a, I::Cursor, C::Probe>, &mut Scratch),
     ) {
         let InFlight { slots, trails, lists, next } = flight;
         for i in 0..lists.free.drain() {
@@ -174,7 +187,7 @@ impl<I: Index, C: Children> Accel<I, C> {
             let mut walk = Walk { ray, trail, family: &self.members };
             (slot.cursor, slot.at) = index.start(simd, &mut walk, slot.limit);
             slot.probe = self.members.children.probe(ray);
-            slot.ray = *next as u32;
+            (slot.ray, slot.number) = (ray, *next as u32);
             *next += 1;
             lists.sort_in(id, slot.at);
         }
@@ -186,44 +199,55 @@ impl<I: Index, C: Children> Accel<I, C> {
         &self,
         simd: S,
         index: &I,
-        rays: &[Ray],
         (_, blocked): &mut Answers<'_>,
-        flight: &mut InFlight<I::Cursor, C::Probe>,
+        flight: &mut InFlight<'_, I::Cursor, C::Probe>,
     ) {
         let InFlight { slots, trails, lists, .. } = flight;
-        for i in 0..lists.onward.drain() {
-            let id = lists.onward.get(i);
+        let Lists { onward, rest, .. } = lists;
+        // Counted here, in registers.
+        let (mut moving, mut resting) = (0, rest.count);
+        for i in 0..onward.count {
+            let id = onward.get(i);
             let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
-            let ray = &rays[slot.ray as usize];
-            let mut walk = Walk { ray, trail, family: &self.members };
+            let mut walk = Walk { ray: slot.ray, trail, family: &self.members };
             let (at, limit) = (slot.at, slot.limit);
-            slot.at =
+            let mut at =
                 index.step::<S, Asks<ANY, true>>(simd, &mut walk, &mut slot.cursor, at, limit);
-            if I::TELLS && ANY && slot.at.is_hit() {
-                blocked[slot.ray as usize] = true;
-                slot.at = Step::DONE;
+            if I::TELLS && ANY && at.is_hit() {
+                blocked[slot.number as usize] = true;
+                at = Step::DONE;
             }
-            self.fetch(index, &slot.cursor, slot.at);
-            lists.sort_in(id, slot.at);
+            slot.at = at;
+            self.fetch(index, &slot.cursor, at);
+            onward.put(moving, id);
+            rest.put(resting, id);
+            moving += usize::from(at.is_onward());
+            resting += usize::from(!at.is_onward());
         }
+        (onward.count, rest.count) = (moving, resting);
     }
 
-    /// Tests the leaves that rays stand at, and moves those rays on.
+    /// Tests the leaves that rays stand at, and moves those rays on; what others held is free.
     #[inline(always)]
     fn serve_leaves<S: Simd, const ANY: bool>(
         &self,
         simd: S,
         index: &I,
-        rays: &[Ray],
         (hits, blocked): &mut Answers<'_>,
-        (flight, scratch): (&mut InFlight<I::Cursor, C::Probe>, &mut Scratch),
+        (flight, scratch): (&mut InFlight<'_, I::Cursor, C::Probe>, &mut Scratch),
     ) {
         let InFlight { slots, trails, lists, .. } = flight;
+        for i in 0..lists.rest.drain() {
+            let id = lists.rest.get(i);
+            let done = slots[id as usize % RAYS].at.is_done();
+            lists.free.push_if(id, done);
+            lists.leaf.push_if(id, !done);
+        }
         for i in 0..lists.leaf.drain() {
             let id = lists.leaf.get(i);
             let (slot, trail) = (&mut slots[id as usize % RAYS], &mut trails[id as usize % RAYS]);
-            let nth = slot.ray as usize;
-            let ray = &rays[nth];
+            let nth = slot.number as usize;
+            let ray = slot.ray;
             let this = This { index, ray, probe: &slot.probe, cursor: &slot.cursor };
             let leaf = slot.at.as_leaf();
             if ANY {

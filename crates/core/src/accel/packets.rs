@@ -2,23 +2,18 @@
 
 use crate::accel::Accel;
 use crate::accel::barrel::Answers;
+use crate::accel::few::lanes;
 use crate::children::Children;
-use crate::hit::Hit;
+use crate::mailbox::Stamp;
 use crate::packet::{self, Packet};
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::Simd;
-use crate::technique::{Index, Leaf, Led};
+use crate::technique::{Index, Led};
 use crate::trail::Trail;
 
 /// Most rays that are looked through for packets at once.
 pub(super) const WINDOW: usize = 4096;
-/// Fewest rays that are handed on as a batch.
-const FEWEST: u32 = 4;
-/// In so many batches, each within the one before, rays are handed on one by one: what is in flight
-/// takes about 80 KiB of stack each time, and nests are up to 192 levels deep.
-const DEEPEST: u32 = 2;
-
 /// Which packets of a window of rays need nothing more.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Served([u64; WINDOW / packet::RAYS / 64]);
@@ -74,36 +69,6 @@ impl Patience {
     }
 }
 
-/// The rays in a mask, by number.
-fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = mask.trailing_zeros() as usize;
-        mask &= mask.wrapping_sub(1);
-        (lane < packet::RAYS).then_some(lane)
-    })
-}
-
-/// Some rays and their answers so far, next to each other.
-struct Few {
-    rays: [Ray; packet::RAYS],
-    hits: [Hit; packet::RAYS],
-    count: usize,
-}
-
-impl Few {
-    #[inline(always)]
-    fn of(mask: u32, rays: &[Ray], hit: impl Fn(usize) -> Hit) -> Self {
-        let none = Hit::none(0.0);
-        let mut few = Self { rays: [rays[0]; packet::RAYS], hits: [none; packet::RAYS], count: 0 };
-        for lane in lanes(mask) {
-            few.rays[few.count % packet::RAYS] = rays[lane];
-            few.hits[few.count % packet::RAYS] = hit(lane);
-            few.count += 1;
-        }
-        few
-    }
-}
-
 impl<I: Index, C: Children> Accel<I, C> {
     /// Traces all `rays`, neighbours together; fills the hits, or whether something is hit if
     /// `ANY`.
@@ -149,7 +114,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         let mut trail = Trail::new();
         for first in (0..rays.len().min(WINDOW)).step_by(packet::RAYS) {
             let some = &rays[first..rays.len().min(first + packet::RAYS)];
-            let may_be = Packet::may_be(some) && index.leads(some[0].kind(), Self::PACKED);
+            let may_be = Packet::may_be(some) && index.leads(some[0].kind());
             if !may_be || !patience.tries() {
                 continue;
             }
@@ -191,21 +156,22 @@ impl<I: Index, C: Children> Accel<I, C> {
     ) -> bool {
         let Some(mut lead) = index.lead_in(simd, packet, trail) else { return false };
         self.members.children.probe_all(simd, packet, rays, probes);
-        loop {
+        let mut seen = index.leads_again().then_some(Stamp::NONE);
+        let is_done = loop {
             let (leaf, mask) = match index.lead_on(simd, packet, trail, &mut lead) {
                 Led::Leaf(leaf, mask) => (leaf, mask),
                 end => {
                     if !ANY {
                         self.members.children.tell_hits(packet, probes, hits);
                     }
-                    return end == Led::Done;
+                    break end == Led::Done;
                 }
             };
             if ANY {
                 let hit = if Self::PACKED {
                     self.members.children.any_in_leaf_by(simd, leaf, mask, packet, probes)
                 } else {
-                    self.any_of_members(leaf, mask, rays, scratch)
+                    self.any_of_members((leaf, mask), &mut seen, rays, scratch)
                 };
                 for lane in lanes(hit) {
                     blocked[lane] = true;
@@ -215,71 +181,13 @@ impl<I: Index, C: Children> Accel<I, C> {
                 let children = &self.members.children;
                 children.closest_in_leaf_by(simd, leaf, mask, packet, probes, hits);
             } else {
-                self.closest_of_members(leaf, mask, rays, hits, scratch);
+                self.closest_of_members((leaf, mask), &mut seen, rays, hits, scratch);
                 for lane in lanes(mask) {
                     packet.limit[lane] = hits[lane].t;
                 }
             }
-        }
-    }
-
-    /// The children in a leaf that is not packed.
-    fn children_in(&self, leaf: Leaf) -> impl Iterator<Item = u32> + '_ {
-        let at = leaf.0 as usize;
-        let members = &self.table[at + 1..][..self.table[at] as usize];
-        members.iter().map(|&member| self.members.names.child(member))
-    }
-
-    /// Tests the children in a leaf with the rays of `mask`, which stay a batch.
-    fn closest_of_members(
-        &self,
-        leaf: Leaf,
-        mask: u32,
-        rays: &[Ray],
-        hits: &mut [Hit],
-        scratch: &mut Scratch,
-    ) {
-        let children = &self.members.children;
-        if mask.count_ones() < FEWEST || scratch.batches >= DEEPEST {
-            for child in self.children_in(leaf) {
-                for lane in lanes(mask) {
-                    children.closest_hit(child, &rays[lane], &mut hits[lane], scratch);
-                }
-            }
-            return;
-        }
-        let mut few = Few::of(mask, rays, |lane| hits[lane]);
-        scratch.batches += 1;
-        for child in self.children_in(leaf) {
-            let (rays, hits) = (&few.rays[..few.count], &mut few.hits[..few.count]);
-            children.closest_hits(child, rays, hits, scratch);
-        }
-        scratch.batches -= 1;
-        for (hit, lane) in few.hits.iter().zip(lanes(mask)) {
-            hits[lane] = *hit;
-        }
-    }
-
-    /// Which rays of `mask` hit any of the children in a leaf.
-    fn any_of_members(&self, leaf: Leaf, mask: u32, rays: &[Ray], scratch: &mut Scratch) -> u32 {
-        let children = &self.members.children;
-        let mut left = mask;
-        for child in self.children_in(leaf) {
-            if left.count_ones() < FEWEST || scratch.batches >= DEEPEST {
-                for lane in lanes(left) {
-                    left &= !(u32::from(children.any_hit(child, &rays[lane], scratch)) << lane);
-                }
-                continue;
-            }
-            let few = Few::of(left, rays, |_| Hit::none(0.0));
-            let mut blocked = [false; packet::RAYS];
-            scratch.batches += 1;
-            children.any_hits(child, &few.rays[..few.count], &mut blocked[..few.count], scratch);
-            scratch.batches -= 1;
-            for (blocked, lane) in blocked.into_iter().zip(lanes(left)) {
-                left &= !(u32::from(blocked) << lane);
-            }
-        }
-        mask & !left
+        };
+        scratch.mailbox.close(seen.unwrap_or_default());
+        is_done
     }
 }

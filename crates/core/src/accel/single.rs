@@ -28,11 +28,7 @@ impl<I: Index, C: Children> Accel<I, C> {
         hit: &mut Hit,
         scratch: &mut Scratch,
     ) -> bool {
-        let mut found = false;
-        for child in self.loose() {
-            self.count_test::<S>(ray, child, scratch);
-            found |= self.members.children.closest_hit(child, ray, hit, scratch);
-        }
+        let mut found = self.is_loose && self.closest_of_loose::<S>(ray, hit, scratch);
         let mut stamp = Stamp::NONE;
         self.walk::<S, Nearest>(
             simd,
@@ -51,11 +47,8 @@ impl<I: Index, C: Children> Accel<I, C> {
 
     #[inline(always)]
     pub(super) fn any<S: Simd>(&self, simd: S, ray: &Ray, scratch: &mut Scratch) -> bool {
-        for child in self.loose() {
-            self.count_test::<S>(ray, child, scratch);
-            if self.members.children.any_hit(child, ray, scratch) {
-                return true;
-            }
+        if self.is_loose && self.any_of_loose::<S>(ray, scratch) {
+            return true;
         }
         let (mut stamp, mut blocked) = (Stamp::NONE, false);
         let told = self.walk::<S, Unordered>(
@@ -98,6 +91,26 @@ impl<I: Index, C: Children> Accel<I, C> {
             },
         );
         scratch.mailbox.close(stamp);
+    }
+
+    /// The children outside the index; whether one is hit nearer than `hit`.
+    #[inline(never)]
+    fn closest_of_loose<S: Simd>(&self, ray: &Ray, hit: &mut Hit, scratch: &mut Scratch) -> bool {
+        let mut found = false;
+        for child in self.loose() {
+            self.count_test::<S>(ray, child, scratch);
+            found |= self.members.children.closest_hit(child, ray, hit, scratch);
+        }
+        found
+    }
+
+    /// Whether a child outside the index is hit.
+    #[inline(never)]
+    fn any_of_loose<S: Simd>(&self, ray: &Ray, scratch: &mut Scratch) -> bool {
+        self.loose().any(|child| {
+            self.count_test::<S>(ray, child, scratch);
+            self.members.children.any_hit(child, ray, scratch)
+        })
     }
 
     /// Shows every leaf the ray meets to `test`, which says how far to go on, or to stop. Returns

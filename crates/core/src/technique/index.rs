@@ -57,11 +57,16 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// Places a ray at the beginning.
     fn start<S: Simd>(&self, simd: S, walk: &mut Walk<'_>, limit: f32) -> (Self::Cursor, Step);
 
-    /// Whether it leads packets of rays of this kind. `packed`, children may be shown to a ray
-    /// more than once.
+    /// Whether it leads packets of rays of this kind.
     #[inline(always)]
-    fn leads(&self, _kind: RayKind, _packed: bool) -> bool {
+    fn leads(&self, _kind: RayKind) -> bool {
         Self::LEADS
+    }
+
+    /// Whether it may lead a packet to the same child more than once.
+    #[inline(always)]
+    fn leads_again(&self) -> bool {
+        !matches!(Self::REPEATS, Repeats::Never)
     }
 
     /// Places a packet at the beginning; none if its rays do better apart.

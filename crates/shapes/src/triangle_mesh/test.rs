@@ -4,6 +4,8 @@
 //! that share an edge see the same two points and decide with exactly opposite signs.
 //! Plain multiplies and adds, never fused: the same bits on every machine.
 
+use std::hint::black_box;
+
 use nestray_core::hit::Hit;
 use nestray_core::simd::Simd;
 
@@ -72,11 +74,12 @@ pub(super) fn hits<S: Simd, L: Layout>(
     limit: f32,
     number: impl Fn(usize) -> u32,
 ) -> Option<Hits<S>> {
-    let Probe { shear, skip, sides } = probe;
     let (mask, edges) = crossed(simd, block);
     if mask == 0 {
         return None;
     }
+    // Else the compiler prepares what follows at the head of the loop over blocks, for every leaf.
+    let Probe { shear, skip, sides } = black_box(probe);
     let rays = shear.in_all(simd, limit);
     let mut hits = settled::<S, L>(simd, &rays, *sides, block, (mask, edges));
     if *skip != Hit::NOTHING {
@@ -213,27 +216,45 @@ fn within_bounds<S: Simd>(
     depths: [S::F32; 3],
     depth: S::F32,
 ) -> S::F32 {
-    let [az, bz, cz] = depths;
-    let (mut enter, mut leave) = range(simd, depths);
-    // Along an axis that the ray hardly moves along, it does not leave the box.
-    for axis in (0..2).filter(|&axis| rays.moves[axis] != 0) {
-        // Unsheared again, relative to the origin of the ray.
-        let slope = rays.slope[axis];
-        let [a, b, c] = block.corners;
-        let at = |corner: [S::F32; 3], z: S::F32| simd.add(corner[axis], simd.mul(slope, z));
-        let (a, b, c) = (at(a, az), at(b, bz), at(c, cz));
-        let inverse = simd.div(simd.splat(1.0), slope);
-        let (least, most) = range(simd, [a, b, c]);
-        let (low, high) = (simd.mul(least, inverse), simd.mul(most, inverse));
-        let (mut near, mut far) = (simd.min(low, high), simd.max(low, high));
-        if rays.moves[axis] != 255 {
-            near = kept(simd, near, rays.moves[axis], f32::NEG_INFINITY);
-            far = kept(simd, far, rays.moves[axis], f32::INFINITY);
-        }
-        enter = simd.max(near, enter);
-        leave = simd.min(far, leave);
-    }
+    let (enter, leave) = range(simd, depths);
+    // By hand, axis by axis: an array that a loop runs over would have to be in memory.
+    let (near, far) = within_slab(simd, rays.slope[0], rays.moves[0], along(block, 0), depths);
+    let (enter, leave) = (simd.max(near, enter), simd.min(far, leave));
+    let (near, far) = within_slab(simd, rays.slope[1], rays.moves[1], along(block, 1), depths);
+    let (enter, leave) = (simd.max(near, enter), simd.min(far, leave));
     simd.min(simd.max(depth, enter), leave)
+}
+
+/// The corners along one axis.
+#[inline(always)]
+fn along<S: Simd>(block: &Block<S>, axis: usize) -> [S::F32; 3] {
+    let [a, b, c] = block.corners;
+    [a[axis], b[axis], c[axis]]
+}
+
+/// From which depth to which a ray is between the corners along one axis; everywhere if it hardly
+/// moves along it.
+#[inline(always)]
+fn within_slab<S: Simd>(
+    simd: S,
+    slope: S::F32,
+    moves: u32,
+    [a, b, c]: [S::F32; 3],
+    [az, bz, cz]: [S::F32; 3],
+) -> (S::F32, S::F32) {
+    if moves == 0 {
+        return (simd.splat(f32::NEG_INFINITY), simd.splat(f32::INFINITY));
+    }
+    // Unsheared again, relative to the origin of the ray.
+    let at = |corner: S::F32, z: S::F32| simd.add(corner, simd.mul(slope, z));
+    let inverse = simd.div(simd.splat(1.0), slope);
+    let (least, most) = range(simd, [at(a, az), at(b, bz), at(c, cz)]);
+    let (low, high) = (simd.mul(least, inverse), simd.mul(most, inverse));
+    let (near, far) = (simd.min(low, high), simd.max(low, high));
+    if moves == 255 {
+        return (near, far);
+    }
+    (kept(simd, near, moves, f32::NEG_INFINITY), kept(simd, far, moves, f32::INFINITY))
 }
 
 /// The lanes of `mask`, and `other` in the rest.
