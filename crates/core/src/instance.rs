@@ -61,6 +61,8 @@ pub struct Placed<O, M> {
     object: O,
     motion: M,
     bounds: Aabb,
+    /// The largest coordinate of the bounds.
+    reach: f32,
 }
 
 impl<O: Object> Instance<O> {
@@ -75,8 +77,8 @@ impl<O: Object> Instance<O> {
 impl<O: Object> Placed<O, Still> {
     /// A part of the object in the same place: rays are moved and cut as for the whole.
     pub(crate) fn part(&self, part: O) -> Self {
-        let Self { first, paths, motion, bounds, .. } = *self;
-        Self { first, paths, object: part, motion, bounds }
+        let Self { first, paths, motion, bounds, reach, .. } = *self;
+        Self { first, paths, object: part, motion, bounds, reach }
     }
 
     /// A box around where the object itself is.
@@ -103,7 +105,7 @@ impl<O: Object, M: Motion> Placed<O, M> {
         let bounds = motion.sweep(object.bounds(), [0.0, 1.0]);
         let bounds = if bounds.is_empty() { Aabb::EMPTY } else { bounds.padded() };
         let paths = object.paths();
-        Self { first: number, paths, object, motion, bounds }
+        Self { first: number, paths, object, motion, bounds, reach: bounds.reach() }
     }
 
     /// The ray in the space of the object; none if it passes by.
@@ -113,7 +115,7 @@ impl<O: Object, M: Motion> Placed<O, M> {
         const SLACK: f32 = Clip::SLACK * 0.6;
         let (mut enter, mut leave) = (ray.t_min(), ray.t_max());
         if self.bounds.is_bounded() {
-            let clip = Clip::with_slack(ray, self.bounds.reach(), SLACK);
+            let clip = Clip::with_slack(ray, self.reach, SLACK);
             (enter, leave) = clip.cut(&self.bounds, ray.t_max())?;
             if M::MOVES {
                 let now = self.bounds_during([ray.time(); 2]).meet(self.bounds);

@@ -281,6 +281,7 @@ impl<L: Layout> Children for Mesh<L> {
 
     fn packed_bytes(&self) -> u64 {
         let packed = size_of_val::<[[u32; 8]]>(&self.blocks);
-        (packed + size_of_val::<[u32]>(&self.numbers) + self.part.bytes()) as u64
+        let names = size_of_val::<[u32]>(&self.numbers) + self.bodies.bytes();
+        (packed + names + self.part.bytes()) as u64
     }
 }

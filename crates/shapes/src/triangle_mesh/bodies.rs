@@ -10,7 +10,12 @@ use super::Triangles;
 pub(super) struct Bodies {
     /// By geometry, ascending; at least one.
     all: Arc<[Body]>,
+    /// For the first of each [`STRIDE`] triangles, which mesh it is of; empty if there is one.
+    near: Arc<[u32]>,
 }
+
+/// Triangles for each of which the search for their mesh begins at the same.
+const STRIDE: u32 = 64;
 
 /// One mesh of them.
 #[derive(Clone, Debug)]
@@ -23,13 +28,15 @@ struct Body {
 
 impl Bodies {
     pub(super) fn one(geometry: u32, triangles: Arc<Triangles>) -> Self {
-        Self { all: [Body { geometry, first: 0, triangles }].into() }
+        Self { all: [Body { geometry, first: 0, triangles }].into(), near: Arc::default() }
     }
 
-    /// All that stand in any of `parts`; none if two have the same geometry, or there are more
-    /// than `most` triangles.
+    /// All triangles that stand in any of `parts`; none if two have the same geometry, or there
+    /// are more than `most` triangles, or none.
     pub(super) fn joined<'a>(parts: impl Iterator<Item = &'a Self>, most: u32) -> Option<Self> {
-        let mut all: Vec<Body> = parts.flat_map(|part| part.all.iter().cloned()).collect();
+        let bodies = parts.flat_map(|part| part.all.iter());
+        let mut all: Vec<Body> =
+            bodies.filter(|body| body.triangles.count() > 0).cloned().collect();
         all.sort_by_key(|body| body.geometry);
         if all.windows(2).any(|pair| pair[0].geometry == pair[1].geometry) {
             return None;
@@ -39,7 +46,12 @@ impl Bodies {
             body.first = first;
             first = first.checked_add(body.triangles.count()).filter(|&count| count <= most)?;
         }
-        (!all.is_empty()).then(|| Self { all: all.into() })
+        if all.len() == 1 {
+            return Some(Self { all: all.into(), near: Arc::default() });
+        }
+        let of = |number: u32| all.partition_point(|body| body.first <= number) as u32 - 1;
+        let near = (0..first).step_by(STRIDE as usize).map(of).collect();
+        (!all.is_empty()).then(|| Self { all: all.into(), near })
     }
 
     /// How many triangles there are.
@@ -85,14 +97,49 @@ impl Bodies {
     fn body(&self, number: u32) -> &Body {
         match &self.all[..] {
             [only] => only,
-            // The first begins at 0.
-            all => &all[all.partition_point(|body| body.first <= number) - 1],
+            all => {
+                let from = self.near[(number / STRIDE) as usize] as usize;
+                let next = all[from + 1..].iter().take_while(|body| body.first <= number);
+                &all[from + next.count()]
+            }
         }
+    }
+
+    /// Memory in use, but for the meshes themselves.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val::<[Body]>(&self.all) + size_of_val::<[u32]>(&self.near)
     }
 
     /// Whether few triangles share vertices; see [`Triangles::is_soup`].
     pub(super) fn are_soup(&self) -> bool {
         let vertices: usize = self.all.iter().map(|body| body.triangles.positions().len()).sum();
         vertices > 2 * self.count() as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joined_triangles_keep_their_names() {
+        let sizes = [3, 0, 1, 64, 200, 1, 1, 0, 130];
+        let bodies: Vec<Bodies> = (0..)
+            .zip(sizes)
+            .map(|(geometry, size)| {
+                let triangles = Triangles::new(vec![[0.0; 3]; 3], vec![[0, 1, 2]; size]);
+                Bodies::one(2 * geometry, Arc::new(triangles.expect("indices are in range")))
+            })
+            .collect();
+        let joined = Bodies::joined(bodies.iter(), u32::MAX).expect("no geometry is there twice");
+        let names = (0..).zip(sizes).flat_map(|(geometry, size)| {
+            (0..size as u32).map(move |primitive| [2 * geometry, primitive])
+        });
+        for (number, name) in (0..).zip(names) {
+            assert_eq!(joined.name(number), name);
+            assert_eq!(joined.number(name), Some(number));
+        }
+        assert_eq!(joined.count(), 400);
+        assert!(Bodies::joined(bodies.iter(), 399).is_none());
     }
 }
