@@ -217,11 +217,11 @@ impl<const COUNTS: bool> Simd for Plain<COUNTS> {
     }
 }
 
-/// Starts to fetch the five cache lines from `address` on; any address will do.
+/// Starts to fetch some cache lines from `address` on; any address will do.
 #[inline(always)]
-pub fn prefetch(address: *const u8) {
+pub fn prefetch<const LINES: usize>(address: *const u8) {
     #[cfg(target_arch = "x86_64")]
-    pieces::kernel::prefetch(address);
+    pieces::kernel::prefetch::<LINES>(address);
     #[cfg(not(target_arch = "x86_64"))]
     let _ = address;
 }

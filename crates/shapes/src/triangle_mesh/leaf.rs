@@ -1,7 +1,7 @@
 //! Testing a leaf, or one triangle, with one ray.
 
 use nestray_core::hit::Hit;
-use nestray_core::simd::{SCALAR, Scalar, Simd};
+use nestray_core::simd::{SCALAR, Scalar, Simd, prefetch};
 use nestray_core::technique::Leaf;
 
 use super::kernel::Soup;
@@ -22,6 +22,8 @@ impl<L: Layout> Mesh<L> {
         let mut found = false;
         loop {
             let block = L::load(simd, &self.blocks, leaf, &probe.shear);
+            // Asked for only where something is hit, and last.
+            prefetch::<1>(self.numbers.as_ptr().wrapping_add(block.first as usize).cast());
             let number = |lane: usize| self.numbers[block.first as usize + lane];
             if let Some(hits) = test::hits::<S, L>(simd, probe, &block, hit.t, number) {
                 // Numbers ascend in a block, so the first lane wins a tie.
