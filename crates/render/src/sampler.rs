@@ -4,11 +4,18 @@
 //! Owen-scrambled Sobol points, four dimensions at a time, each set of four shuffled apart
 //! [Burley 20].
 
+use std::sync::LazyLock;
+
+use sobol_burley::parts::{
+    Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev,
+};
+
 /// The numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sampler {
     seed: u32,
-    index: u32,
+    /// Which sample of its block, bits reversed.
+    reversed: u32,
 }
 
 /// Which four dimensions a sampler gives.
@@ -33,7 +40,7 @@ impl Sampler {
     pub(crate) fn new(pixel: u32, sample: u32, seed: u64) -> Self {
         let block = sample / Self::BLOCK;
         let mixed = mix(mix(seed) ^ (u64::from(block) << 32 | u64::from(pixel)));
-        Self { seed: (mixed >> 32) as u32, index: sample % Self::BLOCK }
+        Self { seed: (mixed >> 32) as u32, reversed: (sample % Self::BLOCK).reverse_bits() }
     }
 
     /// Four numbers in `[0, 1)`.
@@ -46,9 +53,29 @@ impl Sampler {
             Set::Pass(depth, again) => (4 + again, depth),
         };
         let seed = mix(u64::from(self.seed) << 32 ^ u64::from(a) << 16 ^ u64::from(b));
-        sobol_burley::sample_4d(self.index, 0, seed as u32)
+        point(self.reversed, seed as u32)
     }
 }
+
+/// What [`sobol_burley::sample_4d`] gives of the first four dimensions, without its walk from bit
+/// to bit, whose length nobody can foresee.
+fn point(reversed: u32, seed: u32) -> [f32; 4] {
+    /// By which the seeds of the shuffle and of each dimension differ.
+    const SHUFFLE: u32 = 0x79c6_8e4a;
+    const DIMENSIONS: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
+    let shuffled = owen_scramble_rev(reversed, hash(seed ^ SHUFFLE));
+    let part = |i: usize| SOBOL[i][(shuffled >> (28 - 4 * i)) as usize & 15];
+    let sobol = part(0) ^ part(1) ^ part(2) ^ part(3);
+    let scramble = Int4::from([seed.wrapping_mul(0x9c8f_2d3b); 4]) ^ Int4::from(DIMENSIONS);
+    owen_scramble_int4_rev(sobol, hash_int4(scramble)).reverse_bits().to_f32_norm()
+}
+
+/// The points of all numbers that have no more than one of their four hexadecimal digits: a point
+/// is the exclusive or of those of the digits of its number.
+static SOBOL: LazyLock<[[Int4; 16]; 4]> = LazyLock::new(|| {
+    [0, 1, 2, 3]
+        .map(|i| std::array::from_fn(|digit| sobol_int4_rev((digit as u32) << (28 - 4 * i), 0)))
+});
 
 /// A number that looks random, for every number; the end of [Steele 14]'s generator.
 pub(crate) fn mix(x: u64) -> u64 {
@@ -72,6 +99,15 @@ mod tests {
                 cells[(x * 4.0) as usize * 4 + (y * 4.0) as usize] += 1;
             }
             assert_eq!(cells, [4; 16], "{sets:?}");
+        }
+    }
+
+    #[test]
+    fn points_are_those_of_the_crate() {
+        for i in 0..1u32 << 16 {
+            let seed = mix(u64::from(i)) as u32;
+            let expected = sobol_burley::sample_4d(i, 0, seed);
+            assert_eq!(point(i.reverse_bits(), seed), expected, "{i} {seed}");
         }
     }
 
