@@ -18,7 +18,7 @@ use crate::look::Look;
 use self::glass::Glass;
 use self::layered::Layered;
 
-/// How a surface scatters light at one point.
+/// How a surface scatters light at one point, towards the eye.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bsdf {
     /// Opaque: a coat that mirrors over a diffuse ground, or metal.
@@ -43,32 +43,32 @@ pub(crate) struct Scatter {
 }
 
 impl Bsdf {
-    /// Of a material at a point, seen from its front or its back. A material that is partly
-    /// clear is either, by chance: `u` in `[0, 1)`.
-    pub(crate) fn new(look: &Look, front: bool, u: f32) -> Self {
+    /// Of a material at a point, seen from its front or its back along `to_eye`. A material
+    /// that is partly clear is either, by chance: `u` in `[0, 1)`.
+    pub(crate) fn new(look: &Look, front: bool, u: f32, to_eye: Vec3A) -> Self {
         let clear = look.transmission * (1.0 - look.metallic);
         if u < clear {
             let eta = if front { look.ior } else { 1.0 / look.ior };
-            Self::Glass(Glass::new(eta, look.roughness, look.base))
+            Self::Glass(Glass::new(eta, look.roughness, look.base, to_eye))
         } else {
-            Self::Layered(Layered::new(look))
+            Self::Layered(Layered::new(look, to_eye))
         }
     }
 
     /// Share of the light from `to_light` times its cosine, and the density with which
     /// [`sample`](Self::sample) picks that direction; sharp directions left out.
-    pub(crate) fn evaluate(&self, to_eye: Vec3A, to_light: Vec3A) -> (Vec3A, f32) {
+    pub(crate) fn evaluate(&self, to_light: Vec3A) -> (Vec3A, f32) {
         match self {
-            Self::Layered(layered) => layered.evaluate(to_eye, to_light),
-            Self::Glass(glass) => glass.evaluate(to_eye, to_light),
+            Self::Layered(layered) => layered.evaluate(to_light),
+            Self::Glass(glass) => glass.evaluate(to_light),
         }
     }
 
     /// Picks a direction, more often where more light comes from; none if it absorbs.
-    pub(crate) fn sample(&self, to_eye: Vec3A, u: [f32; 3]) -> Option<Scatter> {
+    pub(crate) fn sample(&self, u: [f32; 3]) -> Option<Scatter> {
         match self {
-            Self::Layered(layered) => layered.sample(to_eye, u),
-            Self::Glass(glass) => glass.sample(to_eye, u),
+            Self::Layered(layered) => layered.sample(u),
+            Self::Glass(glass) => glass.sample(u),
         }
     }
 

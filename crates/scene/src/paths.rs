@@ -82,15 +82,38 @@ impl Paths {
     pub fn places(&self, path: InstancePath) -> Vec<(usize, usize)> {
         let mut places = Vec::new();
         let (mut group, mut rest) = (self.root, path.number());
-        while rest > 0 {
-            let place = self.numbers[group].partition_point(|&number| number <= rest);
-            let Some(place) = place.checked_sub(1) else { break };
-            rest -= self.numbers[group][place];
-            places.push((group, place));
-            group = self.groups[group][place];
+        while let Some(step) = self.step(group, rest) {
+            places.push((group, step.place));
+            (group, rest) = (step.group, step.rest);
         }
         places
     }
+
+    /// The group that no place leads to.
+    pub(crate) fn root(&self) -> usize {
+        self.root
+    }
+
+    /// The first place of a path that begins in a group; none if it is the empty one.
+    pub(crate) fn step(&self, group: usize, path: u32) -> Option<Step> {
+        if path == 0 {
+            return None;
+        }
+        let numbers = &self.numbers[group];
+        let place = numbers.partition_point(|&number| number <= path).checked_sub(1)?;
+        Some(Step { place, group: self.groups[group][place], rest: path - numbers[place] })
+    }
+}
+
+/// A step of a path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    /// Which place of the group.
+    pub(crate) place: usize,
+    /// The group that stands there.
+    pub(crate) group: usize,
+    /// The path from there on.
+    pub(crate) rest: u32,
 }
 
 #[derive(Clone, Copy)]

@@ -1,18 +1,19 @@
 //! What a hit looks like, looked up by its ids.
 
+use std::hint::black_box;
 use std::sync::Arc;
 
 use glam::Affine3A;
 use nestray_core::hit::{Hit, InstancePath};
-use nestray_core::instance::Still;
-use nestray_core::object::{DynObject, Object as _};
+use nestray_core::instance::{Motion as _, Still};
+use nestray_core::object::{DynObject, Object};
 use nestray_core::ray::Ray;
 use nestray_core::surface::Surface;
 use nestray_shapes::shape::Single;
 
 use crate::geometry::{Content, Geometry};
 use crate::group::Motion;
-use crate::paths::{Paths, PathsError};
+use crate::paths::{Paths, PathsError, Step};
 use crate::scene::Scene;
 use crate::solid::{Shell, Solid};
 
@@ -66,28 +67,61 @@ impl<'a> Surfaces<'a> {
     #[must_use]
     pub fn at(&self, ray: &Ray, hit: &Hit) -> Point {
         let geometry = &self.scene.geometries[hit.geometry as usize];
-        let places = self.places(hit.path, ray.time());
         let (surface, color) = match &geometry.content {
             Content::Mesh(triangles) => {
                 let uv = [hit.u, hit.v];
-                (triangles.surface(hit.primitive, uv), triangles.color(hit.primitive, uv))
+                let surface = triangles.surface(hit.primitive, uv);
+                let path = (self.paths.root(), hit.path.number());
+                (self.outside(path, ray.time(), surface), triangles.color(hit.primitive, uv))
             }
             Content::Shapes(shapes) => {
-                let inside = inside(ray, &places);
                 let single = Single::new(hit.geometry, &shapes[hit.primitive as usize]);
-                let hit = Hit { primitive: 0, path: InstancePath::NONE, ..*hit };
-                (single.surface(&inside, &hit).expect("the hit is of it"), None)
+                (self.asked(&single, ray, &Hit { primitive: 0, ..*hit }), None)
             }
             Content::Solids(_) => {
                 let solid = &self.solids[hit.geometry as usize][hit.primitive as usize];
-                let hit = Hit { path: InstancePath::NONE, ..*hit };
-                let surface = solid.surface(&inside(ray, &places), &hit);
-                (surface.expect("the hit is of it"), None)
+                (self.asked(solid, ray, hit), None)
             }
         };
-        let surface =
-            places.iter().rev().fold(surface, |surface, (_, from_to)| surface.transformed(from_to));
         Point { surface, material: geometry.material, color: color.unwrap_or([1.0; 4]) }
+    }
+
+    /// Brings near what [`at`](Self::at) will read of each hit: memory answers many questions
+    /// asked at once sooner than one after the other.
+    ///
+    /// # Panics
+    /// If one is not of this scene.
+    pub fn touch(&self, hits: &[Hit]) {
+        let mut sum = 0.0;
+        for hit in hits.iter().filter(|hit| hit.is_some()) {
+            if let Content::Mesh(triangles) = &self.scene.geometries[hit.geometry as usize].content
+            {
+                sum += triangles.touch(hit.primitive);
+            }
+        }
+        black_box(sum);
+    }
+
+    /// A surface seen from outside the places of a path that begins in a group.
+    fn outside(&self, (group, path): (usize, u32), time: f32, surface: Surface) -> Surface {
+        let Some(Step { place, group: inner, rest }) = self.paths.step(group, path) else {
+            return surface;
+        };
+        let inside = self.outside((inner, rest), time, surface);
+        inside.transformed(&match &self.scene.groups[group].places[place].motion {
+            Motion::Still(at) => *at,
+            Motion::Keys(keys) => keys.world_from_object(time),
+            Motion::Node(node) => self.scene.animation.world_from_node(*node, 0.0),
+        })
+    }
+
+    /// The surface that an object within the places of a hit tells of it.
+    fn asked(&self, object: &impl Object, ray: &Ray, hit: &Hit) -> Surface {
+        let places = self.places(hit.path, ray.time());
+        let inside = places.iter().fold(*ray, |ray, (to_from, _)| ray.entering(to_from, 1, 1));
+        let surface = object.surface(&inside, &Hit { path: InstancePath::NONE, ..*hit });
+        let surface = surface.expect("the hit is of it");
+        places.iter().rev().fold(surface, |surface, (_, from_to)| surface.transformed(from_to))
     }
 
     /// Into and out of each place on a path, outermost first.
@@ -111,11 +145,6 @@ fn objects(number: u32, geometry: &Geometry) -> Vec<DynObject> {
         solid.object([number, primitive], geometry.sides, &|mesh| Arc::new(Shell::new(mesh)))
     };
     (0..).zip(solids.iter()).map(object).collect()
-}
-
-/// The ray in the space of the last place.
-fn inside(ray: &Ray, places: &[(Affine3A, Affine3A)]) -> Ray {
-    places.iter().fold(*ray, |ray, (to_from, _)| ray.entering(to_from, 1, 1))
 }
 
 fn both(motion: &impl nestray_core::instance::Motion, time: f32) -> (Affine3A, Affine3A) {

@@ -19,7 +19,7 @@ impl Ggx {
     }
 
     /// Density of normals `h`, as seen from straight above.
-    pub(crate) fn density(&self, h: Vec3A) -> f32 {
+    fn density(&self, h: Vec3A) -> f32 {
         let across = (h.x * h.x + h.y * h.y) / (self.alpha * self.alpha);
         let cosine_squared = h.z * h.z;
         let spread = across + cosine_squared;
@@ -36,28 +36,43 @@ impl Ggx {
         0.5 * ((1.0 + self.alpha * self.alpha * tangent_squared).sqrt() - 1.0)
     }
 
-    /// Share of the small mirrors that `v` sees.
-    pub(crate) fn seen(&self, v: Vec3A) -> f32 {
-        1.0 / (1.0 + self.lambda(v))
+    /// The small mirrors as they are seen from a side.
+    pub(crate) fn viewed(self, v: Vec3A) -> Viewed {
+        let lambda = self.lambda(v);
+        Viewed { ggx: self, v, lambda, seen: 1.0 / (1.0 + lambda) }
+    }
+}
+
+/// The small mirrors, seen along `v`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Viewed {
+    ggx: Ggx,
+    v: Vec3A,
+    /// [`Ggx::lambda`] of it.
+    lambda: f32,
+    /// Share of them that it sees.
+    seen: f32,
+}
+
+impl Viewed {
+    /// Share that `w` sees too, of those seen.
+    pub(crate) fn both(&self, w: Vec3A) -> f32 {
+        1.0 / (1.0 + self.lambda + self.ggx.lambda(w)) / self.seen
     }
 
-    /// Share that both see.
-    pub(crate) fn seen_by_both(&self, v: Vec3A, w: Vec3A) -> f32 {
-        1.0 / (1.0 + self.lambda(v) + self.lambda(w))
+    /// Density of the normals seen.
+    pub(crate) fn density(&self, h: Vec3A) -> f32 {
+        self.seen / self.v.z.abs() * self.ggx.density(h) * self.v.dot(h).abs()
     }
 
-    /// Density of normals as `v` sees them.
-    pub(crate) fn density_seen(&self, v: Vec3A, h: Vec3A) -> f32 {
-        self.seen(v) / v.z.abs() * self.density(h) * v.dot(h).abs()
-    }
-
-    /// A normal as `v` sees them, `v.z > 0` [Dupuy 23].
-    pub(crate) fn sample(&self, v: Vec3A, [u, w]: [f32; 2]) -> Vec3A {
-        let stretched = Vec3A::new(self.alpha * v.x, self.alpha * v.y, v.z).normalize();
+    /// One of the normals seen, `v.z > 0` [Dupuy 23].
+    pub(crate) fn sample(&self, [u, w]: [f32; 2]) -> Vec3A {
+        let (alpha, v) = (self.ggx.alpha, self.v);
+        let stretched = Vec3A::new(alpha * v.x, alpha * v.y, v.z).normalize();
         let (sine, cosine) = libm::sincosf(TAU * u);
         let z = (1.0 - w) * (1.0 + stretched.z) - stretched.z;
         let radius = (1.0 - z * z).max(0.0).sqrt();
         let cap = Vec3A::new(radius * cosine, radius * sine, z) + stretched;
-        Vec3A::new(self.alpha * cap.x, self.alpha * cap.y, cap.z.max(1e-7)).normalize()
+        Vec3A::new(alpha * cap.x, alpha * cap.y, cap.z.max(1e-7)).normalize()
     }
 }

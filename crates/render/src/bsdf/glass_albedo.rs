@@ -55,20 +55,20 @@ pub(super) fn kept(cosine: f32, roughness: f32, eta: f32) -> f32 {
 }
 
 fn cell(cosine: f32, roughness: f32, eta: f32) -> f32 {
-    let ggx = Ggx::new(roughness * roughness);
     let cosine = cosine.max(1e-3);
     let v = Vec3A::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
+    let viewed = Ggx::new(roughness * roughness).viewed(v);
     let mut kept = 0.0;
     for i in 0..DIRECTIONS {
         let [a, b, ..] = Sampler::new(0, i, 0).four(Set::Eye);
-        let h = ggx.sample(v, [a, b]);
+        let h = viewed.sample([a, b]);
         let mirror = dielectric(v.dot(h), eta);
         let back = mirrored(v, h);
         if back.z > 0.0 {
-            kept += mirror * ggx.seen_by_both(v, back) / ggx.seen(v);
+            kept += mirror * viewed.both(back);
         }
         if let Some(through) = refracted(v, h, eta).filter(|through| through.z < 0.0) {
-            kept += (1.0 - mirror) * ggx.seen_by_both(v, through) / ggx.seen(v);
+            kept += (1.0 - mirror) * viewed.both(through);
         }
     }
     kept / DIRECTIONS as f32

@@ -14,11 +14,11 @@ use crate::directions::{cosine_density, cosine_weighted, mirrored};
 use crate::look::Look;
 
 use super::Scatter;
-use super::albedo::{Albedo, ROUGH};
+use super::albedo::{Albedo, ROUGH, Row};
 use super::fresnel::{schlick, straight};
-use super::ggx::{Ggx, SMOOTHEST};
+use super::ggx::{Ggx, SMOOTHEST, Viewed};
 
-/// An opaque surface: metal to one part, a coat over a ground to the rest.
+/// An opaque surface: metal to one part, a coat over a ground to the rest, seen from one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layered {
     /// Colour of the ground, times its part.
@@ -26,9 +26,25 @@ pub(crate) struct Layered {
     metal: Mirror,
     coat: Mirror,
     /// None if it is smooth.
-    rough: Option<(Ggx, f32)>,
+    rough: Option<Rough>,
     /// Share the coat leaves over for the ground, from all sides.
     left: f32,
+    /// The same from `to_eye`.
+    left_there: f32,
+    to_eye: Vec3A,
+    /// How often a mirrored direction is sampled, not one of those all around.
+    chance: f32,
+}
+
+/// What is known of a rough surface.
+#[derive(Clone, Copy, Debug)]
+struct Rough {
+    /// The small mirrors, from `to_eye`.
+    viewed: Viewed,
+    /// What mirrors of this roughness give back.
+    row: Row,
+    /// What a perfect one loses, see [`Albedo::lost`].
+    lost: f32,
 }
 
 /// Something that mirrors.
@@ -53,9 +69,9 @@ impl Mirror {
         schlick(self.straight, self.edge, cosine) * self.part
     }
 
-    /// The same, with what rays add that bounce more than once.
-    fn rough_at(&self, cosine: f32, albedo: Albedo) -> Vec3A {
-        self.at(cosine) * (Vec3A::ONE + self.straight * albedo.lost())
+    /// The same, with what rays add that bounce more than once, of which so much is `lost`.
+    fn rough_at(&self, cosine: f32, lost: f32) -> Vec3A {
+        self.at(cosine) * (Vec3A::ONE + self.straight * lost)
     }
 
     /// Share it gives back, at most, over the colours.
@@ -65,64 +81,73 @@ impl Mirror {
 }
 
 impl Layered {
-    pub(crate) fn new(look: &Look) -> Self {
+    pub(crate) fn new(look: &Look, to_eye: Vec3A) -> Self {
         let rest = 1.0 - look.metallic;
+        let ground = look.base * rest;
+        let metal = Mirror::new(look.metallic, look.base);
+        let coat = Mirror::new(rest, Vec3A::splat(straight(look.ior)));
         let smooth = look.roughness < SMOOTHEST;
-        let mut layered = Self {
-            ground: look.base * rest,
-            metal: Mirror::new(look.metallic, look.base),
-            coat: Mirror::new(rest, Vec3A::splat(straight(look.ior))),
-            rough: (!smooth).then(|| (Ggx::new(look.roughness * look.roughness), look.roughness)),
-            left: 1.0,
+        let row = (!smooth).then(|| ROUGH.row(look.roughness));
+        let (albedo, all_around) = match &row {
+            Some(row) => (row.at(to_eye.z), row.average()),
+            None => (Albedo::smooth(to_eye.z), Albedo::SMOOTH_AVERAGE),
         };
-        layered.left = (1.0 - layered.coat.albedo(layered.all_around())).max(0.0);
-        layered
+        let rough = row.map(|row| Rough {
+            viewed: Ggx::new(look.roughness * look.roughness).viewed(to_eye),
+            row,
+            lost: albedo.lost(),
+        });
+        let left = (1.0 - coat.albedo(all_around)).max(0.0);
+        let chance = chance_of_mirror(ground, &metal, &coat, albedo);
+        let left_there = 1.0 - coat.albedo(albedo);
+        Self { ground, metal, coat, rough, left, left_there, to_eye, chance }
     }
 
     pub(crate) fn is_sharp(&self) -> bool {
         self.rough.is_none() && self.ground == Vec3A::ZERO
     }
 
-    pub(crate) fn evaluate(&self, v: Vec3A, l: Vec3A) -> (Vec3A, f32) {
+    pub(crate) fn evaluate(&self, l: Vec3A) -> (Vec3A, f32) {
+        let v = self.to_eye;
         if v.z <= 0.0 || l.z <= 0.0 {
             return (Vec3A::ZERO, 0.0);
         }
-        let albedo = self.seen_from(v.z);
-        let chance = self.chance_of_mirror(albedo);
-        let mut value = self.ground * (self.through(albedo, l.z) * l.z * FRAC_1_PI);
-        let mut density = (1.0 - chance) * cosine_density(l.z);
-        if let Some((ggx, _)) = self.rough {
+        let mut value = self.ground * (self.through(l.z) * l.z * FRAC_1_PI);
+        let mut density = (1.0 - self.chance) * cosine_density(l.z);
+        if let Some(Rough { viewed, lost, .. }) = &self.rough {
             let h = (v + l).normalize_or_zero();
             let along = v.dot(h);
             if h.z > 0.0 && along > 0.0 {
-                let seen = ggx.density_seen(v, h) / (4.0 * along);
-                let both = ggx.seen_by_both(v, l) / ggx.seen(v);
-                let mirrored =
-                    self.metal.rough_at(along, albedo) + self.coat.rough_at(along, albedo);
-                value += mirrored * (seen * both);
-                density += chance * seen;
+                let seen = viewed.density(h) / (4.0 * along);
+                let mut mirrored = self.coat.rough_at(along, *lost);
+                if self.metal.part > 0.0 {
+                    mirrored += self.metal.rough_at(along, *lost);
+                }
+                value += mirrored * (seen * viewed.both(l));
+                density += self.chance * seen;
             }
         }
         (value, density)
     }
 
-    pub(crate) fn sample(&self, v: Vec3A, [which, u, w]: [f32; 3]) -> Option<Scatter> {
+    pub(crate) fn sample(&self, [which, u, w]: [f32; 3]) -> Option<Scatter> {
+        let v = self.to_eye;
         if v.z <= 0.0 {
             return None;
         }
-        let chance = self.chance_of_mirror(self.seen_from(v.z));
-        let dir = if which >= chance {
+        let mirror = which < self.chance;
+        let dir = if !mirror {
             cosine_weighted([u, w])
-        } else if let Some((ggx, _)) = self.rough {
-            mirrored(v, ggx.sample(v, [u, w]))
+        } else if let Some(Rough { viewed, .. }) = &self.rough {
+            mirrored(v, viewed.sample([u, w]))
         } else {
-            let weight = (self.metal.at(v.z) + self.coat.at(v.z)) / chance;
+            let weight = (self.metal.at(v.z) + self.coat.at(v.z)) / self.chance;
             let dir = mirrored(v, Vec3A::Z);
             let kind = RayKind::Reflect;
             return Some(Scatter { dir, weight, density: 0.0, sharp: true, kind });
         };
-        let (value, density) = self.evaluate(v, dir);
-        let kind = if which >= chance { RayKind::Diffuse } else { RayKind::Reflect };
+        let (value, density) = self.evaluate(dir);
+        let kind = if mirror { RayKind::Reflect } else { RayKind::Diffuse };
         let weight = value / density;
         (density > 0.0 && dir.z > 0.0).then_some(Scatter {
             dir,
@@ -133,45 +158,33 @@ impl Layered {
         })
     }
 
-    /// How often a mirrored direction is sampled, not one of those all around.
-    fn chance_of_mirror(&self, albedo: Albedo) -> f32 {
-        let coat = self.coat.albedo(albedo);
-        let all = self.metal.part * self.metal.albedo(albedo) + self.coat.part * coat;
-        // What comes back after several bounces is sampled as the ground is: few of the
-        // directions after one would otherwise have to carry it.
-        let mirror = all / (1.0 + albedo.lost());
-        let again = all - mirror;
-        let ground = self.ground.max_element() * (1.0 - coat);
-        if ground <= 0.0 {
-            return if mirror > 0.0 { mirror / (mirror + again) } else { 1.0 };
-        }
-        if mirror <= 0.0 {
-            return 0.0;
-        }
-        (mirror / (mirror + ground + again)).clamp(0.1, 0.9)
-    }
-
-    /// What mirrors of this roughness give back of light from one side.
-    fn seen_from(&self, cosine: f32) -> Albedo {
-        match self.rough {
-            Some((_, roughness)) => ROUGH.at(cosine, roughness),
-            None => Albedo::smooth(cosine),
-        }
-    }
-
-    /// The same of light from all sides.
-    fn all_around(&self) -> Albedo {
-        match self.rough {
-            Some((_, roughness)) => ROUGH.average(roughness),
-            None => Albedo::SMOOTH_AVERAGE,
-        }
-    }
-
     /// Share of light that gets through the coat to the ground and out again.
-    fn through(&self, v: Albedo, l: f32) -> f32 {
+    fn through(&self, cosine: f32) -> f32 {
         if self.left < 1e-4 {
             return 0.0;
         }
-        (1.0 - self.coat.albedo(v)) * (1.0 - self.coat.albedo(self.seen_from(l))) / self.left
+        let albedo = match &self.rough {
+            Some(rough) => rough.row.at(cosine),
+            None => Albedo::smooth(cosine),
+        };
+        self.left_there * (1.0 - self.coat.albedo(albedo)) / self.left
     }
+}
+
+/// How often a mirrored direction is sampled, not one of those all around.
+fn chance_of_mirror(ground: Vec3A, metal: &Mirror, coat: &Mirror, albedo: Albedo) -> f32 {
+    let on_top = coat.albedo(albedo);
+    let all = metal.part * metal.albedo(albedo) + coat.part * on_top;
+    // What comes back after several bounces is sampled as the ground is: few of the
+    // directions after one would otherwise have to carry it.
+    let mirror = all / (1.0 + albedo.lost());
+    let again = all - mirror;
+    let ground = ground.max_element() * (1.0 - on_top);
+    if ground <= 0.0 {
+        return if mirror > 0.0 { mirror / (mirror + again) } else { 1.0 };
+    }
+    if mirror <= 0.0 {
+        return 0.0;
+    }
+    (mirror / (mirror + ground + again)).clamp(0.1, 0.9)
 }

@@ -39,6 +39,24 @@ impl Triangles {
         }
     }
 
+    /// Reads a little of all that [`surface`](Self::surface) and [`color`](Self::color) will
+    /// read, so that it is near when they do; the sum of it, which means nothing.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    #[inline]
+    #[must_use]
+    pub fn touch(&self, triangle: u32) -> f32 {
+        let face = self.faces[triangle as usize].map(|vertex| vertex as usize);
+        let first = |vertex: usize| {
+            let normal = self.normals.get(vertex).map_or(0.0, |normal| normal[0]);
+            let uv = self.uvs.get(vertex).map_or(0.0, |uv| uv[0]);
+            let color = self.colors.get(vertex).map_or(0.0, |color| color[0]);
+            self.positions[vertex][0] + normal + uv + color
+        };
+        first(face[0]) + first(face[1]) + first(face[2])
+    }
+
     /// The colour of a triangle at barycentric coordinates, if it has one.
     #[must_use]
     pub fn color(&self, triangle: u32, [u, v]: [f32; 2]) -> Option<[f32; 4]> {
