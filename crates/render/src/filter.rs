@@ -59,10 +59,15 @@ pub(crate) struct Places {
     below: Vec<f32>,
     /// What a sample in each strip counts.
     weight: Vec<f32>,
+    /// The strip that each of some even parts of the chances begins in.
+    first: Vec<u8>,
 }
 
 impl Places {
     const STRIPS: usize = 64;
+    /// So many that few have more than one strip; a power of two, so that a chance is in the
+    /// part its product with it says.
+    const PARTS: usize = 1024;
 
     pub(crate) fn new(filter: Filter) -> Self {
         let radius = filter.radius();
@@ -77,16 +82,28 @@ impl Places {
             below.push(sum / total);
         }
         let weight = heights.iter().map(|&h| (total / net).copysign(h)).collect();
-        Self { radius, below, weight }
+        let strip = |u: f32| below.partition_point(|&b| b <= u).clamp(1, Self::STRIPS) - 1;
+        let first = (0..Self::PARTS).map(|i| strip(i as f32 / Self::PARTS as f32) as u8).collect();
+        Self { radius, below, weight, first }
     }
 
     /// How far from the middle of its pixel a sample is, and how much it counts.
     pub(crate) fn pick(&self, u: f32) -> (f32, f32) {
-        let strip = self.below.partition_point(|&b| b <= u).clamp(1, Self::STRIPS) - 1;
+        let strip = self.strip(u);
         let (from, to) = (self.below[strip], self.below[strip + 1]);
         let part = if to > from { (u - from) / (to - from) } else { 0.5 };
         let at = (strip as f32 + part) / Self::STRIPS as f32 * 2.0 - 1.0;
         (at * self.radius, self.weight[strip])
+    }
+
+    /// The last strip that begins at `u` or below.
+    fn strip(&self, u: f32) -> usize {
+        let part = (u * Self::PARTS as f32) as usize;
+        let mut strip = usize::from(self.first[part.min(Self::PARTS - 1)]);
+        while strip < Self::STRIPS - 1 && self.below[strip + 1] <= u {
+            strip += 1;
+        }
+        strip
     }
 }
 
@@ -116,6 +133,17 @@ mod tests {
             for (cell, found) in found.iter().enumerate() {
                 let (found, expected) = (found / f64::from(picks), height(cell) / all);
                 assert!((found - expected).abs() < 3e-3, "{filter:?} {cell}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_strip_is_the_last_that_begins_below() {
+        for filter in ALL {
+            let places = Places::new(filter);
+            for u in (0..=1u32 << 16).map(|i| i as f32 / 65536.0).chain(places.below.clone()) {
+                let strip = places.below.partition_point(|&b| b <= u).clamp(1, Places::STRIPS) - 1;
+                assert_eq!(places.strip(u), strip, "{filter:?} {u}");
             }
         }
     }
