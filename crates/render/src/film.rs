@@ -21,24 +21,18 @@ struct Sums {
 }
 
 /// The pixels of one tile, while it is rendered.
+#[derive(Default)]
 pub(crate) struct TileFilm {
     pub(crate) tile: Tile,
     pixels: Vec<Sums>,
 }
 
 impl TileFilm {
-    pub(crate) fn new(tile: Tile) -> Self {
-        let empty = Sums {
-            weighted: DVec3::ZERO,
-            weight: 0.0,
-            plain: DVec3::ZERO,
-            count: 0.0,
-            albedo: DVec3::ZERO,
-            normal: DVec3::ZERO,
-            cost: 0.0,
-            first: Seen::NOTHING,
-        };
-        Self { tile, pixels: vec![empty; tile.pixels()] }
+    /// Starts with another tile.
+    pub(crate) fn begin(&mut self, tile: Tile) {
+        self.tile = tile;
+        self.pixels.clear();
+        self.pixels.resize(tile.pixels(), Sums::NONE);
     }
 
     /// Adds a sample. One whose colour is no number counts as black: a single one would
@@ -61,6 +55,17 @@ impl TileFilm {
 }
 
 impl Sums {
+    const NONE: Self = Self {
+        weighted: DVec3::ZERO,
+        weight: 0.0,
+        plain: DVec3::ZERO,
+        count: 0.0,
+        albedo: DVec3::ZERO,
+        normal: DVec3::ZERO,
+        cost: 0.0,
+        first: Seen::NOTHING,
+    };
+
     /// Its colour. Where negative weights leave too little to divide by, the plain mean.
     fn color(&self) -> DVec3 {
         if self.count == 0.0 {
@@ -128,7 +133,7 @@ impl Film {
         value: fn(&Sums) -> [f32; 3],
     ) {
         let [width, height] = self.size();
-        let empty = value(&TileFilm::new(Tile { from: [0, 0], to: [1, 1] }).pixels[0]);
+        let empty = value(&Sums::NONE);
         let samples = empty[..channels.len()].repeat(width * height);
         self.layers.push(Plane { name, channels, samples, value, blends });
     }

@@ -13,11 +13,11 @@ use crate::eye::{Seen, Start};
 use crate::look::Look;
 use crate::tracer::Tracer;
 
-/// Follows light back from the eye, many paths at a time.
-pub(crate) trait Integrate: Send + Sync {
+/// Follows light back from the eye, many paths at a time; each thread has its own.
+pub(crate) trait Integrate {
     /// What each of `starts` sees, in the same order. The answer for one does not depend on
     /// the others.
-    fn trace(&self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>);
+    fn trace(&mut self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>);
 
     /// How many starts to take at a time if batches should hold `wave` rays: fewer where
     /// paths split.

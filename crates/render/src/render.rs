@@ -18,7 +18,7 @@ use crate::heat;
 use crate::integrator::Integrate;
 use crate::integrator::ambient_occlusion::AmbientOcclusion;
 use crate::integrator::cost::Cost;
-use crate::integrator::path::{Direct, Path};
+use crate::integrator::path::{Direct, Path, Room};
 use crate::integrator::whitted::Whitted;
 use crate::light_sampling::Lights;
 use crate::options::{Integrator, Options, RenderError};
@@ -84,7 +84,8 @@ pub(crate) fn render_by(
         surfaces: &surfaces,
         options,
         eye: Eye::new(scene, options),
-        integrator: integrator(&surfaces, options, direct),
+        lights: (options.integrator == Integrator::Path).then(|| Lights::new(&surfaces)),
+        direct,
         progress: Progress::new(watch, pixels * u64::from(options.samples)),
         tiles,
         next: AtomicUsize::new(0),
@@ -100,32 +101,15 @@ pub(crate) fn render_by(
     Ok(Rendered { picture, rays, counters, complete })
 }
 
-fn integrator<'a>(
-    surfaces: &Surfaces<'a>,
-    options: &Options,
-    direct: Direct,
-) -> Box<dyn Integrate + 'a> {
-    let max_depth = options.max_depth;
-    match options.integrator {
-        Integrator::Whitted(whitted) => Box::new(Whitted { tree: whitted.tree, max_depth }),
-        Integrator::Path => {
-            let most = options.clamp.unwrap_or(f32::INFINITY);
-            Box::new(Path { lights: Lights::new(surfaces), max_depth, most, direct })
-        }
-        Integrator::AmbientOcclusion { radius } => {
-            Box::new(AmbientOcclusion { radius: radius.unwrap_or(f32::INFINITY) })
-        }
-        Integrator::Cost => Box::new(Cost),
-    }
-}
-
 /// A render under way, shared by its threads.
 struct Job<'a> {
     world: &'a dyn Object,
     surfaces: &'a Surfaces<'a>,
     options: &'a Options,
     eye: Eye,
-    integrator: Box<dyn Integrate + 'a>,
+    /// For paths only.
+    lights: Option<Lights<'a>>,
+    direct: Direct,
     progress: Progress<'a>,
     tiles: Vec<Tile>,
     /// The first tile that nobody has taken.
@@ -155,23 +139,48 @@ impl Job<'_> {
             (_, Some(level)) => Scratch::with_level(level),
             (_, None) => Scratch::new(),
         };
-        let mut tracer = Tracer::new(self.world, self.surfaces, scratch, self.options.wave);
-        let mut seen = Vec::new();
+        let mut hand = Hand {
+            tracer: Tracer::new(self.world, self.surfaces, scratch, self.options.wave),
+            integrator: self.integrator(),
+            starts: Vec::new(),
+            seen: Vec::new(),
+        };
+        let mut film = TileFilm::default();
         while let Some(&tile) = self.tiles.get(self.next.fetch_add(1, Ordering::Relaxed)) {
             if self.progress.stopped() {
                 break;
             }
-            let film = self.tile(&mut tracer, tile, &mut seen);
+            film.begin(tile);
+            self.tile(&mut hand, &mut film);
             self.done.lock().expect("no thread panicked").0.put(&film);
         }
         let mut done = self.done.lock().expect("no thread panicked");
-        done.1.add(&tracer.counts);
-        done.2.add(&tracer.scratch.counters);
+        done.1.add(&hand.tracer.counts);
+        done.2.add(&hand.tracer.scratch.counters);
+    }
+
+    fn integrator(&self) -> Box<dyn Integrate + '_> {
+        let max_depth = self.options.max_depth;
+        match self.options.integrator {
+            Integrator::Whitted(whitted) => Box::new(Whitted::new(whitted.tree, max_depth)),
+            Integrator::Path => Box::new(Path {
+                lights: self.lights.as_ref().expect("they were made ready"),
+                max_depth,
+                most: self.options.clamp.unwrap_or(f32::INFINITY),
+                direct: self.direct,
+                room: Room::default(),
+            }),
+            Integrator::AmbientOcclusion { radius } => {
+                Box::new(AmbientOcclusion { radius: radius.unwrap_or(f32::INFINITY) })
+            }
+            Integrator::Cost => Box::new(Cost),
+        }
     }
 
     /// Renders a tile wave by wave, pixel after pixel, all samples of each.
-    fn tile(&self, tracer: &mut Tracer<'_>, tile: Tile, seen: &mut Vec<Seen>) -> TileFilm {
-        let mut film = TileFilm::new(tile);
+    fn tile(&self, hand: &mut Hand<'_>, film: &mut TileFilm) {
+        let Hand { tracer, integrator, starts, seen } = hand;
+        let tile = film.tile;
         let samples = self.options.samples as usize;
         let all = tile.pixels() * samples;
         // Rays that are traced one at a time are made as many at a time as usual.
@@ -179,22 +188,32 @@ impl Job<'_> {
             1 => Options::default().wave,
             wave => wave,
         };
-        let wave = self.integrator.starts(wave);
+        let wave = integrator.starts(wave);
         let mut done = 0;
         while done < all && !self.progress.stopped() {
             let end = done.saturating_add(wave).min(all);
             let start = |i: usize| self.eye.start(tile.pixel(i / samples), (i % samples) as u32);
-            let starts: Vec<Start> = (done..end).map(start).collect();
+            starts.clear();
+            starts.extend((done..end).map(start));
             let before = tracer.counts.total().cast;
-            self.integrator.trace(tracer, &starts, seen);
-            for (i, (start, seen)) in starts.iter().zip(&*seen).enumerate() {
-                film.add((done + i) / samples, seen, start.weight);
+            integrator.trace(tracer, starts, seen);
+            for (i, (start, seen)) in (done..).zip(starts.iter().zip(&*seen)) {
+                film.add(i / samples, seen, start.weight);
             }
             self.progress.add((end - done) as u64, tracer.counts.total().cast - before);
             done = end;
         }
-        film
     }
+}
+
+/// What a thread works with.
+struct Hand<'a> {
+    tracer: Tracer<'a>,
+    integrator: Box<dyn Integrate + 'a>,
+    /// Room for a wave.
+    starts: Vec<Start>,
+    /// What each of them saw.
+    seen: Vec<Seen>,
 }
 
 #[cfg(test)]

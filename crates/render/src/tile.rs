@@ -4,7 +4,7 @@ use crate::options::Crop;
 use crate::sampler::mix;
 
 /// A rectangle of pixels that one thread renders.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tile {
     pub(crate) from: [u32; 2],
     pub(crate) to: [u32; 2],

@@ -1,5 +1,7 @@
 //! One thread's rays: batches to the world, and what they pass through on the way.
 
+use std::mem;
+
 use nestray_core::hit::Hit;
 use nestray_core::object::Object;
 use nestray_core::ray::{Ray, Source};
@@ -25,6 +27,8 @@ pub(crate) struct Tracer<'a> {
     wave: usize,
     /// Whether any surface may let rays pass as if it were not there.
     see_through: bool,
+    /// Room for answers.
+    blocked: Vec<bool>,
 }
 
 impl<'a> Tracer<'a> {
@@ -36,7 +40,8 @@ impl<'a> Tracer<'a> {
     ) -> Self {
         let materials = &surfaces.scene().materials;
         let see_through = materials.iter().any(|m| m.alpha_mode != AlphaMode::Opaque);
-        Self { world, surfaces, scratch, counts: RayCounts::default(), wave, see_through }
+        let (counts, blocked) = (RayCounts::default(), Vec::new());
+        Self { world, surfaces, scratch, counts, wave, see_through, blocked }
     }
 
     pub(crate) fn scene(&self) -> &'a Scene {
@@ -48,19 +53,21 @@ impl<'a> Tracer<'a> {
         self.surfaces.at(ray, hit)
     }
 
+    /// To be called for each of `hits` in turn, before [`point`](Self::point): brings near what
+    /// that will read of it and of those after it.
+    pub(crate) fn touch(&self, hits: &[Hit], turn: usize) {
+        /// Few enough for what they read to fit next to everything else.
+        const AHEAD: usize = 32;
+        if turn.is_multiple_of(AHEAD) {
+            self.surfaces.touch(&hits[turn..hits.len().min(turn + AHEAD)]);
+        }
+    }
+
     /// The nearest hit of each ray.
     pub(crate) fn closest(&mut self, rays: &[Ray], hits: &mut Vec<Hit>) {
         hits.clear();
         hits.extend(rays.iter().map(|ray| Hit::none(ray.t_max())));
-        if self.wave == 1 {
-            for (ray, hit) in rays.iter().zip(hits.iter_mut()) {
-                self.world.closest_hit(ray, hit, &mut self.scratch);
-            }
-        } else {
-            for (rays, hits) in rays.chunks(self.wave).zip(hits.chunks_mut(self.wave)) {
-                self.world.closest_hits(rays, hits, &mut self.scratch);
-            }
-        }
+        self.ask(rays, hits, <dyn Object>::closest_hit, <dyn Object>::closest_hits);
         for (ray, hit) in rays.iter().zip(hits) {
             self.counts.one(ray.kind(), hit.is_some());
         }
@@ -104,16 +111,14 @@ impl<'a> Tracer<'a> {
 
     /// How much gets through to the end of each ray, from 0 to 1.
     pub(crate) fn passing(&mut self, rays: &[Ray], passing: &mut Vec<f32>) {
-        let mut blocked = vec![false; rays.len()];
-        if self.wave == 1 {
-            for (ray, blocked) in rays.iter().zip(&mut blocked) {
-                *blocked = self.world.any_hit(ray, &mut self.scratch);
-            }
-        } else {
-            for (rays, blocked) in rays.chunks(self.wave).zip(blocked.chunks_mut(self.wave)) {
-                self.world.any_hits(rays, blocked, &mut self.scratch);
-            }
-        }
+        let mut blocked = mem::take(&mut self.blocked);
+        blocked.clear();
+        blocked.resize(rays.len(), false);
+        let one = |world: &dyn Object, ray: &Ray, blocked: &mut bool, scratch: &mut Scratch| {
+            *blocked = world.any_hit(ray, scratch);
+            *blocked
+        };
+        self.ask(rays, &mut blocked, one, <dyn Object>::any_hits);
         for (ray, &blocked) in rays.iter().zip(&blocked) {
             self.counts.one(ray.kind(), blocked);
         }
@@ -121,6 +126,26 @@ impl<'a> Tracer<'a> {
         passing.extend(blocked.iter().map(|&blocked| if blocked { 0.0 } else { 1.0 }));
         if self.see_through {
             self.look_through(rays, &blocked, passing);
+        }
+        self.blocked = blocked;
+    }
+
+    /// Asks the world about rays, one at a time or so many together.
+    fn ask<T>(
+        &mut self,
+        rays: &[Ray],
+        answers: &mut [T],
+        one: impl Fn(&'a dyn Object, &Ray, &mut T, &mut Scratch) -> bool,
+        many: impl Fn(&'a dyn Object, &[Ray], &mut [T], &mut Scratch),
+    ) {
+        if self.wave == 1 {
+            for (ray, answer) in rays.iter().zip(answers) {
+                one(self.world, ray, answer, &mut self.scratch);
+            }
+        } else {
+            for (rays, answers) in rays.chunks(self.wave).zip(answers.chunks_mut(self.wave)) {
+                many(self.world, rays, answers, &mut self.scratch);
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! How much rough mirrors give back, worked out once, as a table.
 
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 use glam::{Vec3A, Vec4};
 
@@ -46,16 +46,10 @@ impl Albedo {
     }
 }
 
-/// Of all rough mirrors.
-pub(crate) static ROUGH: LazyLock<Table> = LazyLock::new(Table::new);
+/// Rough mirrors by roughness, each row worked out when it is first asked for.
+static ROWS: [OnceLock<Cells>; ROUGHNESSES] = [const { OnceLock::new() }; ROUGHNESSES];
 
-/// By roughness, and by the cosine of the angle of view.
-#[derive(Debug)]
-pub(crate) struct Table {
-    rows: Vec<Cells>,
-}
-
-/// A row of the table.
+/// Mirrors of a roughness of the table, by the cosine of the angle of view.
 #[derive(Debug)]
 struct Cells {
     columns: [Albedo; COSINES],
@@ -77,33 +71,25 @@ const ROUGHNESSES: usize = 32;
 /// Directions looked at for one cell.
 const DIRECTIONS: u32 = 512;
 
-impl Table {
-    fn new() -> Self {
-        let directions: Vec<[f32; 2]> = (0..DIRECTIONS)
-            .map(|i| {
-                let [a, b, ..] = Sampler::new(0, i, 0).four(Set::Eye);
-                [a, b]
-            })
-            .collect();
-        let row = |row: usize| {
+impl Cells {
+    fn of_row(row: usize) -> &'static Self {
+        ROWS[row].get_or_init(|| {
             let part = row as f32 / (ROUGHNESSES - 1) as f32;
             let roughness = SMOOTHEST + (1.0 - SMOOTHEST) * part;
-            let columns = COLUMNS.map(|cosine| cell(cosine, roughness, &directions));
-            Cells { columns, average: average(&columns) }
-        };
-        Self { rows: (0..ROUGHNESSES).map(row).collect() }
-    }
-
-    /// Mirrors of this roughness.
-    pub(crate) fn row(&'static self, roughness: f32) -> Row {
-        let part = ((roughness - SMOOTHEST) / (1.0 - SMOOTHEST)).clamp(0.0, 1.0);
-        let place = part * (ROUGHNESSES - 1) as f32;
-        let row = (place as usize).min(ROUGHNESSES - 2);
-        Row { rows: [&self.rows[row], &self.rows[row + 1]], down: place - row as f32 }
+            let columns = COLUMNS.map(|cosine| cell(cosine, roughness));
+            Self { columns, average: average(&columns) }
+        })
     }
 }
 
 impl Row {
+    pub(crate) fn new(roughness: f32) -> Self {
+        let part = ((roughness - SMOOTHEST) / (1.0 - SMOOTHEST)).clamp(0.0, 1.0);
+        let place = part * (ROUGHNESSES - 1) as f32;
+        let row = (place as usize).min(ROUGHNESSES - 2);
+        Self { rows: [row, row + 1].map(Cells::of_row), down: place - row as f32 }
+    }
+
     /// Seen from this angle.
     pub(crate) fn at(&self, cosine: f32) -> Albedo {
         let place = cosine.clamp(0.0, 1.0).sqrt() * (COSINES - 1) as f32;
@@ -136,14 +122,15 @@ const COLUMNS: [f32; COSINES] = {
     columns
 };
 
-/// Of a mirror of this roughness seen from this angle: a mean over `directions`.
-fn cell(cosine: f32, roughness: f32, directions: &[[f32; 2]]) -> Albedo {
+/// Of a mirror of this roughness seen from this angle.
+fn cell(cosine: f32, roughness: f32) -> Albedo {
     let cosine = cosine.max(1e-4);
     let v = Vec3A::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine);
     let (mut straight, mut edge) = (0.0, 0.0);
     let viewed = Ggx::new(roughness * roughness).viewed(v);
-    for &u in directions {
-        let h = viewed.sample(u);
+    for i in 0..DIRECTIONS {
+        let [a, b, ..] = Sampler::new(0, i, 0).four(Set::Eye);
+        let h = viewed.sample([a, b]);
         let l = mirrored(v, h);
         if l.z > 0.0 {
             let both = viewed.both(l);

@@ -14,7 +14,7 @@ use crate::directions::{cosine_density, cosine_weighted, mirrored};
 use crate::look::Look;
 
 use super::Scatter;
-use super::albedo::{Albedo, ROUGH, Row};
+use super::albedo::{Albedo, Row};
 use super::fresnel::{schlick, straight};
 use super::ggx::{Ggx, SMOOTHEST, Viewed};
 
@@ -87,7 +87,7 @@ impl Layered {
         let metal = Mirror::new(look.metallic, look.base);
         let coat = Mirror::new(rest, Vec3A::splat(straight(look.ior)));
         let smooth = look.roughness < SMOOTHEST;
-        let row = (!smooth).then(|| ROUGH.row(look.roughness));
+        let row = (!smooth).then(|| Row::new(look.roughness));
         let (albedo, all_around) = match &row {
             Some(row) => (row.at(to_eye.z), row.average()),
             None => (Albedo::smooth(to_eye.z), Albedo::SMOOTH_AVERAGE),

@@ -18,7 +18,7 @@ pub(crate) struct AmbientOcclusion {
 }
 
 impl Integrate for AmbientOcclusion {
-    fn trace(&self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
+    fn trace(&mut self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
         seen.clear();
         seen.resize(starts.len(), Seen { color: Vec3A::ONE, ..Seen::NOTHING });
         let mut rays: Vec<Ray> = starts.iter().map(|start| start.ray).collect();

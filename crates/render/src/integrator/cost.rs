@@ -15,7 +15,7 @@ pub(crate) struct Cost;
 
 impl Integrate for Cost {
     /// One ray at a time: only so is it known what each of them cost.
-    fn trace(&self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
+    fn trace(&mut self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
         seen.clear();
         let mut all: Counters = mem::take(&mut tracer.scratch.counters);
         let mut hits: Vec<Hit> = Vec::new();

@@ -4,12 +4,19 @@
 //! have found the same light, each counts by how likely it was to [Veach 95].
 
 mod met;
+mod shadows;
+mod walk;
+
+use std::mem;
 
 use glam::Vec3A;
 use nestray_core::hit::Hit;
 use nestray_core::ray::Ray;
+use nestray_scene::scene::Scene;
 
 use self::met::Met;
+use self::shadows::{Shadows, Waiting};
+use self::walk::{Step, Walk};
 use super::{Integrate, note};
 use crate::background;
 use crate::eye::{Seen, Start};
@@ -20,11 +27,24 @@ use crate::tracer::{Tracer, source};
 
 /// See [`Integrator::Path`](crate::options::Integrator).
 pub(crate) struct Path<'a> {
-    pub(crate) lights: Lights<'a>,
+    pub(crate) lights: &'a Lights<'a>,
     pub(crate) max_depth: u32,
     /// Most that light counts for which came over two surfaces or more.
     pub(crate) most: f32,
     pub(crate) direct: Direct,
+    pub(crate) room: Room,
+}
+
+/// Room for the paths of a wave, kept from wave to wave.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    walks: Vec<Walk>,
+    /// One for each walk.
+    rays: Vec<Ray>,
+    hits: Vec<Hit>,
+    /// The walks that go on, and their rays.
+    next: (Vec<Walk>, Vec<Ray>),
+    shadows: Shadows,
 }
 
 /// How light is found that comes straight from where it is made.
@@ -45,33 +65,11 @@ const ROULETTE: u32 = 4;
 /// Shadow rays end this part before the light, so that they do not meet it.
 const BEFORE: f32 = 1.0 - 1e-5;
 
-/// A path on its way.
-#[derive(Clone, Copy, Debug)]
-struct Walk {
-    /// Which of the starts.
-    start: u32,
-    /// What light from here on is multiplied by.
-    share: Vec3A,
-    /// Where it was scattered last.
-    from: Vec3A,
-    /// With what density; of no use if `sharp`.
-    density: f32,
-    /// Whether only this path can find the light it meets.
-    sharp: bool,
-}
-
-/// Light that waits for its shadow ray.
-#[derive(Clone, Copy, Debug)]
-struct Waiting {
-    start: u32,
-    light: Vec3A,
-    ray: Ray,
-}
-
 impl Integrate for Path<'_> {
-    fn trace(&self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
+    fn trace(&mut self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
         seen.clear();
         seen.resize(starts.len(), Seen::NOTHING);
+        let mut room = mem::take(&mut self.room);
         let fresh = |(i, start): (usize, &Start)| Walk {
             start: i as u32,
             share: Vec3A::ONE,
@@ -79,60 +77,80 @@ impl Integrate for Path<'_> {
             density: 0.0,
             sharp: true,
         };
-        let mut walks: Vec<Walk> = starts.iter().enumerate().map(fresh).collect();
-        let mut rays: Vec<Ray> = starts.iter().map(|start| start.ray).collect();
-        let mut hits = Vec::new();
+        let Room { walks, rays, hits, next, shadows } = &mut room;
+        walks.clear();
+        walks.extend(starts.iter().enumerate().map(fresh));
+        rays.clear();
+        rays.extend(starts.iter().map(|start| start.ray));
         // One more than surfaces are shaded: the last ray only looks for light.
         for depth in 1..=self.max_depth + 1 {
-            tracer.closest_solid(&mut rays, &mut hits, |i, tries, alpha| {
+            tracer.closest_solid(rays, hits, |i, tries, alpha| {
                 passes_by_chance(&starts[walks[i].start as usize], depth, tries, alpha)
             });
-            let mut waiting = Vec::new();
-            let mut next = (Vec::new(), Vec::new());
-            for ((walk, ray), hit) in walks.iter().zip(&rays).zip(&hits) {
-                let seen = &mut seen[walk.start as usize];
+            for (i, ((walk, ray), hit)) in walks.iter().zip(&*rays).zip(&*hits).enumerate() {
+                tracer.touch(hits, i);
                 let start = &starts[walk.start as usize];
-                let Some(met) = self.meet(tracer, depth, walk, start, ray, hit, seen) else {
-                    continue;
-                };
-                waiting.extend(self.light(&met, depth, walk, start, ray, hit));
-                if let Some((walk, ray)) = scatter(&met, depth, walk, start, ray, hit) {
-                    next.0.push(walk);
-                    next.1.push(ray);
-                }
+                let step = Step { depth, walk, start, ray, hit };
+                self.step(tracer, &step, &mut seen[walk.start as usize], shadows, next);
             }
-            settle(tracer, waiting, seen);
-            (walks, rays) = next;
+            shadows.settle(tracer, seen);
+            mem::swap(walks, &mut next.0);
+            mem::swap(rays, &mut next.1);
+            next.0.clear();
+            next.1.clear();
             if walks.is_empty() {
-                return;
+                break;
             }
         }
+        self.room = room;
     }
 }
 
 impl Path<'_> {
-    /// Takes the light a path finds where it arrives; the surface, if it is to be shaded.
-    #[expect(clippy::too_many_arguments, reason = "everything about one path")]
+    /// All that one path does where its ray ended.
+    fn step(
+        &self,
+        tracer: &Tracer<'_>,
+        step: &Step<'_>,
+        seen: &mut Seen,
+        shadows: &mut Shadows,
+        next: &mut (Vec<Walk>, Vec<Ray>),
+    ) {
+        if !step.hit.is_some() {
+            self.missed(tracer.scene(), step, seen);
+            return;
+        }
+        // Both at once, long before they are needed: each takes its time.
+        let light = step.start.sampler.four(Set::Light(step.depth));
+        let onward = step.start.sampler.four(Set::Scatter(step.depth));
+        let Some(met) = self.meet(tracer, step, light[3], seen) else { return };
+        if let Some((waiting, ray)) = self.light(&met, step, light) {
+            shadows.push(waiting, ray);
+        }
+        if let Some((walk, ray)) = scatter(&met, step, onward) {
+            next.0.push(walk);
+            next.1.push(ray);
+        }
+    }
+
+    /// Takes the light of the surroundings.
+    fn missed(&self, scene: &Scene, &Step { depth, walk, ray, .. }: &Step<'_>, seen: &mut Seen) {
+        let dir = ray.dir().normalize();
+        let light = background::radiance(scene, dir);
+        let light = walk.share * light * self.weight(walk, self.lights.density_of_sky(dir));
+        seen.color += self.limited(light, depth - 1);
+    }
+
+    /// Takes the light of the surface that was hit; that surface, if it is to be shaded.
     fn meet(
         &self,
         tracer: &Tracer<'_>,
-        depth: u32,
-        walk: &Walk,
-        start: &Start,
-        ray: &Ray,
-        hit: &Hit,
+        &Step { depth, walk, start, ray, hit }: &Step<'_>,
+        part: f32,
         seen: &mut Seen,
     ) -> Option<Met> {
-        let scene = tracer.scene();
-        let dir = ray.dir().normalize();
-        if !hit.is_some() {
-            let light = background::radiance(scene, dir);
-            let light = walk.share * light * self.weight(walk, self.lights.density_of_sky(dir));
-            seen.color += self.limited(light, depth - 1);
-            return None;
-        }
         let point = tracer.point(ray, hit);
-        let look = Look::at(scene, &point);
+        let look = Look::at(tracer.scene(), &point);
         if depth == 1 {
             note(seen, start, ray, hit, &point, &look);
         }
@@ -145,11 +163,8 @@ impl Path<'_> {
             let light = walk.share * look.emission * self.weight(walk, density);
             seen.color += self.limited(light, depth - 1);
         }
-        if depth > self.max_depth {
-            return None;
-        }
-        let [.., part] = start.sampler.four(Set::Light(depth));
-        Some(Met::new(point, &look, -dir, part))
+        let to_eye = -ray.dir().normalize();
+        (depth <= self.max_depth).then(|| Met::new(point.surface, &look, to_eye, part))
     }
 
     /// How much light counts that was found by scattering, where picking lights finds it
@@ -169,24 +184,19 @@ impl Path<'_> {
     fn light(
         &self,
         met: &Met,
-        depth: u32,
-        walk: &Walk,
-        start: &Start,
-        ray: &Ray,
-        hit: &Hit,
-    ) -> Option<Waiting> {
+        &Step { depth, walk, ray, hit, .. }: &Step<'_>,
+        [u, v, w, _]: [f32; 4],
+    ) -> Option<(Waiting, Ray)> {
         if met.bsdf.is_sharp() {
             return None;
         }
-        let [u, v, w, _] = start.sampler.four(Set::Light(depth));
-        let at = met.point.surface.position;
-        let towards = self.lights.sample(at, ray.time(), [u, v, w])?;
+        let towards = self.lights.sample(met.surface.position, ray.time(), [u, v, w])?;
         let to_light = met.frame.local(towards.dir);
         // A light must be on the same side of the true surface and of the smooth one.
         if met.normal.dot(towards.dir) * to_light.z <= 0.0 {
             return None;
         }
-        let (value, density) = met.bsdf.evaluate(met.to_eye, to_light);
+        let (value, density) = met.bsdf.evaluate(to_light);
         let weight = match self.direct {
             _ if towards.density == 0.0 => 1.0,
             Direct::Both => power(towards.density, density),
@@ -199,13 +209,13 @@ impl Path<'_> {
         if light.max_element() <= 0.0 || !light.is_finite() {
             return None;
         }
-        let origin = met.point.surface.leave(towards.dir);
+        let origin = met.surface.leave(towards.dir);
         let shadow = match towards.end {
             Some(end) => Ray::new(origin, end - origin, towards.kind).between(0.0, BEFORE),
             None => Ray::new(origin, towards.dir, towards.kind),
         };
         let ray = shadow.at_time(ray.time()).leaving(source(hit));
-        Some(Waiting { start: walk.start, light: self.limited(light, depth), ray })
+        Some((Waiting { start: walk.start, light: self.limited(light, depth) }, ray))
     }
 
     /// Light that came over so many surfaces, no more of it than may count.
@@ -218,14 +228,10 @@ impl Path<'_> {
 /// The next ray of a path; none if it ends.
 fn scatter(
     met: &Met,
-    depth: u32,
-    walk: &Walk,
-    start: &Start,
-    ray: &Ray,
-    hit: &Hit,
+    &Step { depth, walk, ray, hit, .. }: &Step<'_>,
+    [which, u, v, stay]: [f32; 4],
 ) -> Option<(Walk, Ray)> {
-    let [which, u, v, stay] = start.sampler.four(Set::Scatter(depth));
-    let scatter = met.bsdf.sample(met.to_eye, [which, u, v])?;
+    let scatter = met.bsdf.sample([which, u, v])?;
     let dir = met.frame.world(scatter.dir);
     if met.normal.dot(dir) * scatter.dir.z <= 0.0 {
         return None;
@@ -241,7 +247,7 @@ fn scatter(
     if share.max_element() <= 0.0 || !share.is_finite() {
         return None;
     }
-    let surface = &met.point.surface;
+    let surface = &met.surface;
     let onward =
         Ray::new(surface.leave(dir), dir, scatter.kind).at_time(ray.time()).leaving(source(hit));
     let walk = Walk {
@@ -252,17 +258,6 @@ fn scatter(
         sharp: scatter.sharp,
     };
     Some((walk, onward))
-}
-
-/// Casts the shadow rays, light by light, and adds what arrives.
-fn settle(tracer: &mut Tracer<'_>, mut waiting: Vec<Waiting>, seen: &mut [Seen]) {
-    waiting.sort_by_key(|waiting| waiting.ray.kind());
-    let rays: Vec<Ray> = waiting.iter().map(|waiting| waiting.ray).collect();
-    let mut passing = Vec::new();
-    tracer.passing(&rays, &mut passing);
-    for (waiting, passing) in waiting.iter().zip(passing) {
-        seen[waiting.start as usize].color += waiting.light * passing;
-    }
 }
 
 /// The power heuristic.

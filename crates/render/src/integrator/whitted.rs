@@ -3,12 +3,16 @@
 //! A tree is followed level by level, for many pixels at once: all rays of a level, then the
 //! shadow rays of what they hit, light by light, then the next level.
 
+mod branches;
 mod coefficients;
+
+use std::mem;
 
 use glam::Vec3A;
 use nestray_core::hit::Hit;
-use nestray_core::ray::{Ray, RayKind};
+use nestray_core::ray::{Ray, RayKind, Source};
 use nestray_core::surface::Surface;
+use nestray_scene::scene::Scene;
 
 use super::{Integrate, note};
 use crate::background;
@@ -19,12 +23,28 @@ use crate::look::{self, Look};
 use crate::options::Tree;
 use crate::tracer::{Tracer, onward, source};
 
+use self::branches::{Branch, Branches, Shadows};
 use self::coefficients::Coefficients;
 
 /// See [`Integrator::Whitted`](crate::options::Integrator).
 pub(crate) struct Whitted {
-    pub(crate) tree: Tree,
-    pub(crate) max_depth: u32,
+    tree: Tree,
+    max_depth: u32,
+    room: Room,
+}
+
+/// Room for the trees of a wave, kept from wave to wave.
+#[derive(Debug, Default)]
+struct Room {
+    branches: Branches,
+    hits: Vec<Hit>,
+    /// What they hit.
+    met: Vec<Met>,
+    /// Rays that go on behind what is not all there.
+    passed: Branches,
+    /// Those of the next level.
+    next: Branches,
+    shadows: Shadows,
 }
 
 /// Rays that count for less of a pixel are not followed.
@@ -34,22 +54,12 @@ const BEFORE: f32 = 1.0 - 1e-5;
 /// Most surfaces that a ray shines through on its way to the next level.
 const MOST_PASSES: usize = 1024;
 
-/// A ray of a tree.
-#[derive(Clone, Copy, Debug)]
-struct Branch {
-    /// Which of the starts.
-    start: u32,
-    /// What it counts for.
-    share: Vec3A,
-    ray: Ray,
-}
-
 /// A surface to be lit.
+#[derive(Debug)]
 struct Met {
-    start: u32,
-    share: Vec3A,
-    ray: Ray,
-    hit: Hit,
+    branch: Branch,
+    time: f32,
+    source: Source,
     surface: Surface,
     /// Unit, on the side of the eye.
     normal: Vec3A,
@@ -59,33 +69,33 @@ struct Met {
 }
 
 impl Integrate for Whitted {
-    fn trace(&self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
+    fn trace(&mut self, tracer: &mut Tracer<'_>, starts: &[Start], seen: &mut Vec<Seen>) {
         seen.clear();
         seen.resize(starts.len(), Seen::NOTHING);
-        let root = |(i, start): (usize, &Start)| Branch {
-            start: i as u32,
-            share: Vec3A::ONE,
-            ray: start.ray,
-        };
-        let mut branches: Vec<Branch> = starts.iter().enumerate().map(root).collect();
+        let mut room = mem::take(&mut self.room);
+        room.branches.clear();
+        for (i, start) in starts.iter().enumerate() {
+            room.branches.push(Branch { start: i as u32, share: Vec3A::ONE }, start.ray);
+        }
         for depth in 1..=self.max_depth {
-            let mut next = Vec::new();
             for _ in 0..MOST_PASSES {
-                let (met, passed) = self.meet(tracer, depth, &branches, starts, seen);
-                self.light(tracer, &met, seen);
+                self.meet(tracer, depth, &mut room, starts, seen);
+                self.light(tracer, &room.met, &mut room.shadows, seen);
                 if depth < self.max_depth {
-                    met.iter().for_each(|met| self.branch(met, &mut next));
+                    room.met.iter().for_each(|met| self.branch(met, &mut room.next));
                 }
-                branches = passed;
-                if branches.is_empty() {
+                mem::swap(&mut room.branches, &mut room.passed);
+                if room.branches.rays.is_empty() {
                     break;
                 }
             }
-            branches = next;
-            if branches.is_empty() {
-                return;
+            mem::swap(&mut room.branches, &mut room.next);
+            room.next.clear();
+            if room.branches.rays.is_empty() {
+                break;
             }
         }
+        self.room = room;
     }
 
     /// A full tree doubles with every level.
@@ -95,23 +105,27 @@ impl Integrate for Whitted {
 }
 
 impl Whitted {
+    pub(crate) fn new(tree: Tree, max_depth: u32) -> Self {
+        Self { tree, max_depth, room: Room::default() }
+    }
+
     /// What the rays hit, and the rays that go on behind what is not all there.
     fn meet(
         &self,
         tracer: &mut Tracer<'_>,
         depth: u32,
-        branches: &[Branch],
+        room: &mut Room,
         starts: &[Start],
         seen: &mut [Seen],
-    ) -> (Vec<Met>, Vec<Branch>) {
-        let rays: Vec<Ray> = branches.iter().map(|branch| branch.ray).collect();
-        let mut hits = Vec::new();
-        tracer.closest(&rays, &mut hits);
+    ) {
+        let Room { branches: Branches { branches, rays }, hits, met, passed, .. } = room;
+        tracer.closest(rays, hits);
+        met.clear();
+        passed.clear();
         let scene = tracer.scene();
-        let (mut all, mut passed) = (Vec::new(), Vec::new());
-        for (branch, hit) in branches.iter().zip(&hits) {
+        for (i, ((branch, ray), hit)) in branches.iter().zip(&*rays).zip(&*hits).enumerate() {
+            tracer.touch(hits, i);
             let seen = &mut seen[branch.start as usize];
-            let ray = &branch.ray;
             if !hit.is_some() {
                 seen.color += branch.share * background::radiance(scene, ray.dir().normalize());
                 continue;
@@ -119,8 +133,8 @@ impl Whitted {
             let point = tracer.point(ray, hit);
             let alpha = look::opacity(scene, &point);
             if alpha < 1.0 {
-                let (ray, share) = (onward(ray, hit, &point.surface), branch.share * (1.0 - alpha));
-                passed.push(Branch { share, ray, ..*branch });
+                let share = branch.share * (1.0 - alpha);
+                passed.push(Branch { share, ..*branch }, onward(ray, hit, &point.surface));
             }
             if alpha == 0.0 {
                 continue;
@@ -129,24 +143,33 @@ impl Whitted {
             if depth == 1 && seen.geometry < 0.0 {
                 note(seen, &starts[branch.start as usize], ray, hit, &point, &look);
             }
-            let met = Met::new(tracer, branch, hit, &point.surface, &look, alpha);
-            let ambient = met.coefficients.diffuse * Vec3A::from(scene.ambient);
-            seen.color += met.share * (look.emission + ambient);
-            all.push(met);
+            let branch = Branch { share: branch.share * alpha, ..*branch };
+            let new = Met::new(scene, branch, ray, hit, &point.surface, &look);
+            let ambient = new.coefficients.diffuse * Vec3A::from(scene.ambient);
+            seen.color += branch.share * (look.emission + ambient);
+            met.push(new);
         }
-        (all, passed)
     }
 
     /// Adds the light of every light that is not in shadow, light by light.
-    fn light(&self, tracer: &mut Tracer<'_>, all: &[Met], seen: &mut [Seen]) {
+    fn light(
+        &self,
+        tracer: &mut Tracer<'_>,
+        all: &[Met],
+        shadows: &mut Shadows,
+        seen: &mut [Seen],
+    ) {
+        let Shadows { waiting, rays, passing } = shadows;
         for (number, light) in tracer.scene().lights.iter().enumerate() {
-            let (mut rays, mut waiting) = (Vec::new(), Vec::new());
+            waiting.clear();
+            rays.clear();
             for met in all {
                 let Some(arriving) = bare::arriving(light, met.surface.position) else { continue };
                 if met.normal.dot(arriving.dir) <= 0.0 {
                     continue;
                 }
-                let share = met.share * met.lit(arriving.dir);
+                let Branch { start, share } = met.branch;
+                let share = share * met.lit(arriving.dir);
                 if self.tree == Tree::Pruned && share.max_element() <= 0.0 {
                     continue;
                 }
@@ -157,19 +180,18 @@ impl Whitted {
                     }
                     None => Ray::new(origin, arriving.dir, shadow(number)),
                 };
-                rays.push(ray.at_time(met.ray.time()).leaving(source(&met.hit)));
-                waiting.push((met.start, share * arriving.brightness));
+                rays.push(ray.at_time(met.time).leaving(met.source));
+                waiting.push(Branch { start, share: share * arriving.brightness });
             }
-            let mut passing = Vec::new();
-            tracer.passing(&rays, &mut passing);
-            for ((start, light), passing) in waiting.into_iter().zip(passing) {
-                seen[start as usize].color += light * passing;
+            tracer.passing(rays, passing);
+            for (light, passing) in waiting.iter().zip(&*passing) {
+                seen[light.start as usize].color += light.share * *passing;
             }
         }
     }
 
     /// Reflected and refracted rays.
-    fn branch(&self, met: &Met, next: &mut Vec<Branch>) {
+    fn branch(&self, met: &Met, next: &mut Branches) {
         let Coefficients { mut mirror, through, ior, .. } = met.coefficients;
         let clear = through.max_element() > 0.0;
         let eta = if met.front { ior } else { 1.0 / ior };
@@ -179,12 +201,12 @@ impl Whitted {
             mirror += through;
         }
         let mut grow = |share: Vec3A, dir: Vec3A, kind: RayKind| {
-            let share = met.share * share;
+            let share = met.branch.share * share;
             if self.tree == Tree::Full || share.max_element() >= CUT_OFF {
                 let ray = Ray::new(met.surface.leave(dir), dir, kind)
-                    .at_time(met.ray.time())
-                    .leaving(source(&met.hit));
-                next.push(Branch { start: met.start, share, ray });
+                    .at_time(met.time)
+                    .leaving(met.source);
+                next.push(Branch { share, ..met.branch }, ray);
             }
         };
         if clear || mirror.max_element() > 0.0 {
@@ -198,26 +220,25 @@ impl Whitted {
 
 impl Met {
     fn new(
-        tracer: &Tracer<'_>,
-        branch: &Branch,
+        scene: &Scene,
+        branch: Branch,
+        ray: &Ray,
         hit: &Hit,
         surface: &Surface,
         look: &Look,
-        alpha: f32,
     ) -> Self {
-        let to_eye = -branch.ray.dir().normalize();
+        let to_eye = -ray.dir().normalize();
         let front = surface.normal.dot(to_eye) >= 0.0;
         let side = if front { 1.0 } else { -1.0 };
         let mut normal = look.normal * side;
         if normal.dot(to_eye) <= 0.0 {
             normal = surface.normal * side;
         }
-        let whitted = tracer.scene().materials[look.material].whitted;
+        let whitted = scene.materials[look.material].whitted;
         Self {
-            start: branch.start,
-            share: branch.share * alpha,
-            ray: branch.ray,
-            hit: *hit,
+            branch,
+            time: ray.time(),
+            source: source(hit),
             surface: *surface,
             normal,
             to_eye,
