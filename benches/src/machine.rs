@@ -10,7 +10,6 @@ pub(crate) fn describe() -> Vec<[String; 2]> {
         ["processor".into(), format!("{}, {cores} of its threads", processor())],
         ["system".into(), said("uname", &["-srm"])],
         ["compiler".into(), said("rustc", &["--version"])],
-        ["commit".into(), said("git", &["describe", "--always", "--dirty"])],
         ["date".into(), said("date", &["-u", "+%Y-%m-%d"])],
     ];
     if let Some(load) = fs::read_to_string("/proc/loadavg").ok().as_deref().and_then(busy) {
@@ -18,6 +17,11 @@ pub(crate) fn describe() -> Vec<[String; 2]> {
     }
     facts.retain(|[_, fact]| !fact.is_empty());
     facts
+}
+
+/// What is being measured.
+pub(crate) fn commit() -> String {
+    said("git", &["describe", "--always", "--dirty"])
 }
 
 fn processor() -> String {

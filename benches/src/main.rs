@@ -141,7 +141,10 @@ fn measure(args: &Args, scene: &Scene, named: &str) -> Result<Results, String> {
     command.arg(&output);
     let done = command.args(&args.options).status();
     match done {
-        Ok(status) if status.success() => Results::read(scene.name, &output),
+        Ok(status) if status.success() => {
+            Results::sign(&output, &machine::commit())?;
+            Results::read(scene.name, &output)
+        }
         Ok(status) => Err(format!("{}: {status}", scene.name)),
         Err(error) => Err(format!("nestray cannot be started: {error}")),
     }

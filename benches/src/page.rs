@@ -1,5 +1,6 @@
 //! The page about speed.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::pictures::{self, Picture};
@@ -54,6 +55,7 @@ pub(crate) fn page(
     for [name, fact] in machine::describe() {
         let _ = writeln!(text, "| {name} | {fact} |");
     }
+    let _ = writeln!(text, "| commit | {} |", commits(all.iter().chain(grown)));
     let mut libraries: Vec<String> = all.iter().flat_map(|one| one.rows()).map(library).collect();
     libraries.sort();
     libraries.dedup();
@@ -82,6 +84,21 @@ pub(crate) fn page(
     text.push_str("\n## Rates\n\nMillions of rays per second; the fastest of each set in bold.\n");
     all.iter().for_each(|one| text.push_str(&rates(one)));
     text
+}
+
+/// What was measured, and which scenes are from another commit.
+fn commits<'a>(all: impl Iterator<Item = &'a Results>) -> String {
+    let now = machine::commit();
+    let mut others: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for one in all.filter(|one| one.commit() != now) {
+        others.entry(one.commit()).or_default().push(&one.scene);
+    }
+    let other = |(commit, scenes): (&str, Vec<&str>)| match commit {
+        "" => format!("{} of one unknown", scenes.join(", ")),
+        commit => format!("{} of {commit}", scenes.join(", ")),
+    };
+    let parts = std::iter::once(now.clone()).chain(others.into_iter().map(other));
+    parts.collect::<Vec<_>>().join("; ")
 }
 
 /// The first word of a name, and a version.

@@ -46,6 +46,20 @@ impl Results {
         Ok(Self { scene: scene.into(), value })
     }
 
+    /// Writes into measurements what was measured.
+    pub(crate) fn sign(path: &Path, commit: &str) -> Result<(), String> {
+        let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = fs::read_to_string(path).map_err(|error| wrong(&error))?;
+        let mut value: Value = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
+        value["commit"] = commit.into();
+        fs::write(path, format!("{value:#}\n")).map_err(|error| wrong(&error))
+    }
+
+    /// What was measured; nothing if nobody knows.
+    pub(crate) fn commit(&self) -> &str {
+        self.value["commit"].as_str().unwrap_or_default()
+    }
+
     fn list(&self, name: &str) -> &[Value] {
         self.value[name].as_array().map_or(&[], Vec::as_slice)
     }
