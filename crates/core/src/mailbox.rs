@@ -16,6 +16,7 @@ pub struct Mailbox {
 #[derive(Debug, Default)]
 struct Set {
     bits: Vec<u64>,
+    /// Words of it that are not 0.
     marked: Vec<u32>,
 }
 
@@ -40,14 +41,14 @@ impl Mailbox {
     #[inline]
     pub fn first_visit(&mut self, stamp: &mut Stamp, child: u32, count: u32) -> bool {
         if *stamp == Stamp::NONE {
-            *stamp = self.open(count);
+            *stamp = self.open(count as usize);
         }
         let set = &mut self.sets[stamp.0 as usize];
         let (word, bit) = ((child / 64) as usize, 1 << (child % 64));
         let new = set.bits[word] & bit == 0;
         if new {
             set.bits[word] |= bit;
-            set.marked.push(child);
+            set.marked.push(word as u32);
         }
         new
     }
@@ -56,13 +57,13 @@ impl Mailbox {
     #[inline]
     pub fn first_visits(&mut self, stamp: &mut Stamp, child: u32, count: u32, rays: u32) -> u32 {
         if *stamp == Stamp::NONE {
-            *stamp = self.open(count.saturating_mul(u32::BITS));
+            *stamp = self.open(count as usize * u32::BITS as usize);
         }
         let set = &mut self.sets[stamp.0 as usize];
         let (word, shift) = ((child / 2) as usize, child % 2 * u32::BITS);
         let seen = (set.bits[word] >> shift) as u32;
         if seen == 0 {
-            set.marked.push(child * u32::BITS);
+            set.marked.push(word as u32);
         }
         set.bits[word] |= u64::from(rays) << shift;
         rays & !seen
@@ -77,22 +78,22 @@ impl Mailbox {
     }
 
     #[cold]
-    fn open(&mut self, count: u32) -> Stamp {
+    fn open(&mut self, count: usize) -> Stamp {
         let id = self.free.pop().unwrap_or_else(|| {
             self.sets.push(Set::default());
             self.sets.len() as u32 - 1
         });
         let bits = &mut self.sets[id as usize].bits;
-        if bits.len() < (count as usize).div_ceil(64) {
-            bits.resize((count as usize).div_ceil(64), 0);
+        if bits.len() < count.div_ceil(64) {
+            bits.resize(count.div_ceil(64), 0);
         }
         Stamp(id)
     }
 
     fn clear(&mut self, stamp: Stamp) {
         let set = &mut self.sets[stamp.0 as usize];
-        for child in set.marked.drain(..) {
-            set.bits[(child / 64) as usize] = 0;
+        for word in set.marked.drain(..) {
+            set.bits[word as usize] = 0;
         }
         self.free.push(stamp.0);
     }
