@@ -15,15 +15,18 @@ pub mod score;
 pub mod start;
 
 mod archive;
+mod clock;
+mod effort;
 mod pins;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use nestray_core::cost::CostModel;
 use nestray_scene::scene::Scene;
 
 use self::anneal::Tempering;
 use self::archive::Archive;
+use self::clock::{Clock, Wall};
 use self::measure::{Finalist, Measured};
 use self::pins::Pins;
 use self::ray_log::RayLog;
@@ -44,7 +47,8 @@ pub struct Options {
     pub pins: Vec<String>,
     /// Most plans to try; the same number finds the same plans on every machine.
     pub evaluations: Option<usize>,
-    /// Most time to try them; what is timed in the end comes on top.
+    /// Most time to try them: none is begun that may take longer. What is timed in the end comes on
+    /// top, half of this again at most.
     pub time: Option<Duration>,
     /// Another number goes other ways.
     pub seed: u64,
@@ -126,27 +130,37 @@ pub fn optimize(
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Optimized, PlanError> {
-    let begun = Instant::now();
+    optimize_by(scene, log, prices, &Limits::new(&Wall::new(), options, observer))
+}
+
+/// [`optimize`], by any clock.
+fn optimize_by(
+    scene: &Scene,
+    log: &RayLog,
+    prices: &CostModel,
+    limits: &Limits<'_>,
+) -> Result<Optimized, PlanError> {
+    let options = limits.options;
     let allowed = start::allowed(&options.techniques)?;
     let pins = Pins::new(options.start.as_ref(), &options.pins)?;
     let (search_log, timed_log) = log.halves();
     let scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
     let mut archive = Archive::new(&search_log);
-    let limits = Limits { begun, options, observer };
     if let Some(plan) = &options.start {
-        start::given(plan, scene, &scorer, &mut archive)?;
+        start::given(plan, scene, &scorer, limits, &mut archive)?;
     }
     if pins.are_none() {
-        start::singles(scene, &allowed, &scorer, &limits, &mut archive)?;
+        start::singles(scene, &allowed, &scorer, limits, &mut archive)?;
     }
     let mut trace = Vec::new();
     let tempering = Tempering { scene, allowed: &allowed, pins: &pins, seed: options.seed };
-    tempering.run(&scorer, &limits, &mut archive, &mut trace);
-    let search_seconds = begun.elapsed().as_secs_f64();
+    tempering.run(&scorer, limits, &mut archive, &mut trace);
+    let search_seconds = limits.clock.seconds();
     let evaluations = archive.evaluations();
     let (expected, candidates) = (archive.cheapest(), archive.candidates());
     let finalists: Vec<Finalist> = archive.finalists();
-    let mut measured = measure::race(scene, finalists, &timed_log, options, observer)?;
+    let timing = limits.timing();
+    let mut measured = measure::race(scene, finalists, &timed_log, &timing, &archive.efforts)?;
     let winner = measure::choose(&measured);
     let mut plan = measured[winner].finalist.plan.clone();
     plan.scene = Some(fingerprint(scene));
@@ -157,28 +171,65 @@ pub fn optimize(
 }
 
 /// When to end.
+#[derive(Clone)]
 pub(crate) struct Limits<'a> {
-    begun: Instant,
+    clock: &'a dyn Clock,
     options: &'a Options,
     observer: &'a dyn Observer,
+    /// Seconds on the clock when no more plans may be tried.
+    end: f64,
 }
 
-impl Limits<'_> {
+impl<'a> Limits<'a> {
+    fn new(clock: &'a dyn Clock, options: &'a Options, observer: &'a dyn Observer) -> Self {
+        let end = options.time.map_or(f64::INFINITY, |time| clock.seconds() + time.as_secs_f64());
+        Self { clock, options, observer, end }
+    }
+
+    /// Those of the timing, which begins now.
+    fn timing(&self) -> Self {
+        /// Part of the time of the search.
+        const PART: f64 = 0.5;
+        // What the search took too much, it has less.
+        let begun = self.clock.seconds().min(self.end);
+        let time = self.options.time.map_or(f64::INFINITY, |time| time.as_secs_f64());
+        let end = begun + PART * time;
+        Self { end, ..self.clone() }
+    }
+
     /// Whether no more plans may be tried after so many.
     pub(crate) fn reached(&self, evaluations: usize) -> bool {
         self.observer.stop()
             || self.options.evaluations.is_some_and(|most| evaluations >= most)
-            || self.options.time.is_some_and(|most| self.begun.elapsed() >= most)
+            || self.clock.seconds() >= self.end
+    }
+
+    /// Whether there is time for plans that take so many seconds each. Side by side they take as long as
+    /// one after the other: each is built by all threads.
+    pub(crate) fn is_time_for(&self, seconds: &[f64]) -> bool {
+        self.clock.seconds() + seconds.iter().sum::<f64>() <= self.end
+    }
+
+    /// What a plan costs, and the seconds it took to find out.
+    pub(crate) fn score(
+        &self,
+        scorer: &Scorer<'_>,
+        plan: &Plan,
+    ) -> (Result<Score, PlanError>, f64) {
+        let begun = self.clock.seconds();
+        let score = scorer.score(plan);
+        (score, self.clock.seconds() - begun)
     }
 
     /// How far the search is, from 0 to 1.
     pub(crate) fn progress(&self, evaluations: usize) -> f64 {
         let tried = self.options.evaluations.map(|most| evaluations as f64 / most.max(1) as f64);
         let spent = self.options.time.map(|most| {
-            self.begun.elapsed().as_secs_f64() / most.as_secs_f64().max(f64::MIN_POSITIVE)
+            let most = most.as_secs_f64().max(f64::MIN_POSITIVE);
+            1.0 - (self.end - self.clock.seconds()) / most
         });
         // Where plans are counted, the clock does not say what is done.
-        tried.or(spent).unwrap_or(0.0).min(1.0)
+        tried.or(spent).unwrap_or(0.0).clamp(0.0, 1.0)
     }
 
     pub(crate) fn observer(&self) -> &dyn Observer {

@@ -133,7 +133,7 @@ impl Tempering<'_> {
     }
 }
 
-/// Tries the plans that are new, as many as may be.
+/// Tries the plans that are new, as many as may be and as there is time for.
 fn try_new(
     proposals: &[Option<Proposal>],
     scorer: &Scorer<'_>,
@@ -141,19 +141,25 @@ fn try_new(
     archive: &mut Archive,
 ) {
     let mut new = BTreeMap::new();
-    let mut order = Vec::new();
+    let (mut order, mut seconds) = (Vec::new(), Vec::new());
     for proposal in proposals.iter().flatten() {
         let room = !limits.reached(archive.evaluations() + order.len());
         if room
             && archive.known(&proposal.hash).is_none()
             && new.insert(&proposal.hash, ()).is_none()
         {
-            order.push(&proposal.plan);
+            seconds.push(archive.efforts.expected(&proposal.plan));
+            if limits.is_time_for(&seconds) {
+                order.push(&proposal.plan);
+            } else {
+                seconds.pop();
+            }
         }
     }
-    let scores: Vec<_> = order.par_iter().map(|plan| scorer.score(plan).ok()).collect();
-    for (plan, score) in order.into_iter().zip(scores) {
-        archive.add(plan.clone(), score, None);
+    let scores: Vec<_> = order.par_iter().map(|plan| limits.score(scorer, plan)).collect();
+    for (plan, (score, seconds)) in order.into_iter().zip(scores) {
+        archive.efforts.note(plan, seconds);
+        archive.add(plan.clone(), score.ok(), None);
     }
 }
 

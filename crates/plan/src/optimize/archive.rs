@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nestray_core::by_kind::Case;
 
 use super::Candidate;
+use super::effort::Efforts;
 use super::measure::Finalist;
 use super::ray_log::RayLog;
 use super::score::Score;
@@ -27,6 +28,8 @@ pub(crate) struct Archive {
     by_hash: BTreeMap<String, Option<usize>>,
     /// The number of the plan that somebody had already.
     given: Option<usize>,
+    /// How long plans take.
+    pub(crate) efforts: Efforts,
 }
 
 /// What a search tries to make cheap: all rays, or those of one set.
@@ -44,7 +47,8 @@ const HOPE: f64 = 20.0;
 
 impl Archive {
     pub(crate) fn new(log: &RayLog) -> Self {
-        Self { log: log.clone(), tried: Vec::new(), by_hash: BTreeMap::new(), given: None }
+        let (tried, by_hash, efforts) = (Vec::new(), BTreeMap::new(), Efforts::default());
+        Self { log: log.clone(), tried, by_hash, given: None, efforts }
     }
 
     /// Plans that were tried, also those that cannot be built.

@@ -1,17 +1,17 @@
 //! Timing the plans that a search ends with: what is fastest then is taken.
 
-use std::time::Instant;
+mod shots;
 
 use nestray_core::cost::CostModel;
-use nestray_core::hit::Hit;
 use nestray_core::object::{DynObject, Object as _};
-use nestray_core::scratch::Scratch;
 use nestray_scene::scene::Scene;
 
+use self::shots::{median, mixed, per_ray, shoot};
+use super::Limits;
 use super::archive::composed;
-use super::ray_log::{RayLog, RaySet};
+use super::effort::Efforts;
+use super::ray_log::RayLog;
 use super::score::Score;
-use super::{Observer, Options};
 use crate::build::build;
 use crate::check::check;
 use crate::error::PlanError;
@@ -45,7 +45,7 @@ pub struct Measured {
     pub build_seconds: f64,
     /// Memory after all rays were shot.
     pub bytes: u64,
-    /// How often it was timed: once, if it was far from the best.
+    /// How often it was timed.
     pub rounds: usize,
 }
 
@@ -53,9 +53,12 @@ pub struct Measured {
 const RAYS: usize = 32_768;
 /// Rays of each set that tell what is far from the best.
 const FIRST: usize = 512;
-/// So many times as slow as the best is far from it, at first and after a full turn.
+/// So many times as slow as the best is far from it, at first and later.
 const FAR: f64 = 3.0;
 const STILL_FAR: f64 = 1.4;
+/// Turns in which something must be far from the best, each time, to be left out: others that want
+/// the same processor and memory come and go.
+const TURNS: usize = 3;
 /// How much faster a nest must be than something simpler.
 const SIMPLER: f64 = 1.02;
 
@@ -67,27 +70,16 @@ struct Runner {
     times: Vec<Vec<f64>>,
 }
 
-/// What is fastest so far.
-struct Best {
-    mix: f64,
-    nanos: Vec<f64>,
+/// What everything is timed by.
+struct Race<'a> {
+    scene: &'a Scene,
+    limits: &'a Limits<'a>,
+    /// Few rays, and all that are timed.
+    few: RayLog,
+    all: RayLog,
 }
 
-impl Best {
-    fn note(&mut self, measured: &Measured) {
-        self.mix = self.mix.min(measured.mix);
-        for (best, &nanos) in self.nanos.iter_mut().zip(&measured.nanos) {
-            *best = best.min(nanos);
-        }
-    }
-
-    /// Whether something is more than `times` as slow for the mix, and the best for no kind of rays.
-    fn is_far(&self, mix: f64, nanos: &[f64], times: f64) -> bool {
-        mix > times * self.mix && nanos.iter().zip(&self.nanos).all(|(nanos, best)| nanos > best)
-    }
-}
-
-/// Builds and times all, in turns; those far from the best only once.
+/// Builds and times all for which there is time, in turns; those far from the best a few times only.
 ///
 /// # Errors
 /// If one cannot be built.
@@ -95,106 +87,157 @@ pub(super) fn race(
     scene: &Scene,
     finalists: Vec<Finalist>,
     log: &RayLog,
-    options: &Options,
-    observer: &dyn Observer,
+    limits: &Limits<'_>,
+    efforts: &Efforts,
 ) -> Result<Vec<Measured>, PlanError> {
-    let logs = [log.thinned(FIRST), log.thinned(RAYS)];
+    let race = Race { scene, limits, few: log.thinned(FIRST), all: log.thinned(RAYS) };
+    let is_time_for = |finalist: &Finalist| {
+        !limits.observer.stop() && limits.is_time_for(&[efforts.expected(&finalist.plan)])
+    };
+    // What was put together of others may not go together.
+    let is_sound =
+        |finalist: &Finalist| finalist.predicted.is_some() || check(&finalist.plan, scene).is_ok();
     let (mut runners, mut out) = (Vec::<Runner>::new(), Vec::new());
-    let mut best = Best { mix: f64::INFINITY, nanos: vec![f64::INFINITY; log.sets.len()] };
     for finalist in finalists {
-        // What was put together of others may not go together.
-        if finalist.predicted.is_none() && check(&finalist.plan, scene).is_err() {
-            continue;
-        }
-        let runner = enter(scene, finalist, &logs, options, &best)?;
-        best.note(&runner.measured);
-        runners.push(runner);
-        let is_far = |runner: &mut Runner| {
-            let Measured { mix, nanos, .. } = &runner.measured;
-            best.is_far(*mix, nanos, STILL_FAR)
-        };
-        out.extend(runners.extract_if(.., is_far).map(|runner| runner.measured));
-        if observer.stop() {
-            break;
+        if (runners.is_empty() || is_time_for(&finalist)) && is_sound(&finalist) {
+            let runner = race.enter(finalist)?;
+            out.extend(race.admit(runner, &mut runners));
         }
     }
-    run(&mut runners, &logs[1], options, observer);
+    race.run(&mut runners);
     if let Some(finalist) = joined(&runners, log)
-        && check(&finalist.plan, scene).is_ok()
-        && !observer.stop()
+        && is_time_for(&finalist)
+        && is_sound(&finalist)
     {
         // Against what is best so far, in turns with it.
-        let runner = enter(scene, finalist, &logs, options, &best)?;
+        let mut last = vec![race.enter(finalist)?];
         let fastest = (0..runners.len())
             .min_by(|&a, &b| runners[a].measured.total.total_cmp(&runners[b].measured.total));
-        let mut last = vec![runner];
         last.extend(fastest.map(|fastest| runners.swap_remove(fastest)));
-        run(&mut last, &logs[1], options, observer);
+        race.run(&mut last);
         runners.extend(last);
     }
     out.extend(runners.into_iter().map(|runner| runner.measured));
     Ok(out)
 }
 
-/// Builds one and lets it shoot for the first time.
-fn enter(
-    scene: &Scene,
-    finalist: Finalist,
-    [first, all]: &[RayLog; 2],
-    options: &Options,
-    best: &Best,
-) -> Result<Runner, PlanError> {
-    let begun = Instant::now();
-    let world = build(&finalist.plan, scene)?;
-    let mut build_seconds = begun.elapsed().as_secs_f64();
-    let (mut nanos, late) = warm(&world, first);
-    build_seconds += late;
-    if !best.is_far(mixed(&nanos, first), &nanos, FAR) {
-        let (more, late) = warm(&world, all);
-        (nanos, build_seconds) = (more, build_seconds + late);
+impl Race<'_> {
+    /// Builds one and sends it a few rays.
+    fn enter(&self, finalist: Finalist) -> Result<Runner, PlanError> {
+        let begun = self.limits.clock.seconds();
+        let world = build(&finalist.plan, self.scene)?;
+        let build_seconds = self.limits.clock.seconds() - begun;
+        let bytes = world.cost(&CostModel::usual().clone()).bytes;
+        let times = vec![Vec::new(); self.all.sets.len()];
+        let (nanos, mix, total) = (Vec::new(), 0.0, 0.0);
+        let measured = Measured { finalist, nanos, mix, total, build_seconds, bytes, rounds: 1 };
+        let mut runner = Runner { world, measured, times };
+        self.warm(&mut runner, &self.few);
+        Ok(runner)
     }
-    let mix = mixed(&nanos, first);
-    let total = mix + build_seconds * 1e9 / options.rays_expected.max(1.0);
-    let bytes = world.cost(&CostModel::usual().clone()).bytes;
-    let times = vec![Vec::new(); all.sets.len()];
-    let measured = Measured { finalist, nanos, mix, total, build_seconds, bytes, rounds: 1 };
-    Ok(Runner { world, measured, times })
-}
 
-/// Nanoseconds per ray of each set the second time, and seconds that the first time took longer:
-/// what is built when rays come.
-fn warm(world: &DynObject, log: &RayLog) -> (Vec<f64>, f64) {
-    let mut late = 0.0;
-    let nanos = log.sets.iter().map(|set| {
-        let (first, second) = (shoot(world, set), shoot(world, set));
-        late += (first - second).max(0.0);
-        per_ray(second, set)
-    });
-    (nanos.collect(), late)
-}
-
-/// Lets all shoot, in turns.
-fn run(runners: &mut [Runner], log: &RayLog, options: &Options, observer: &dyn Observer) {
-    for _ in 0..options.rounds {
-        if observer.stop() {
-            break;
+    /// Lets one run with the others, unless it is far from the best; if it is the best itself,
+    /// those stop that are far from it.
+    fn admit(&self, mut new: Runner, runners: &mut Vec<Runner>) -> Vec<Measured> {
+        let sets = 0..self.all.sets.len();
+        let least = |runners: &[Runner]| -> Vec<f64> {
+            let nanos = |set: usize| runners.iter().map(move |r| r.measured.nanos[set]);
+            sets.clone().map(|set| nanos(set).fold(f64::INFINITY, f64::min)).collect()
+        };
+        let Some(best) = fastest(runners) else {
+            self.warm(&mut new, &self.all);
+            runners.push(new);
+            return Vec::new();
+        };
+        let kinds = least(runners);
+        if self.is_left_behind([&mut new, &mut runners[best]], &self.few, FAR, &kinds) {
+            return vec![new.measured];
         }
-        for runner in runners.iter_mut() {
-            for (set, times) in log.sets.iter().zip(&mut runner.times) {
-                times.push(per_ray(shoot(&runner.world, set), set));
+        self.warm(&mut new, &self.all);
+        if self.is_left_behind([&mut new, &mut runners[best]], &self.all, STILL_FAR, &kinds) {
+            return vec![new.measured];
+        }
+        let kinds = new.measured.nanos.clone();
+        let is_far = |other: &mut Runner| {
+            other.measured.mix > STILL_FAR * new.measured.mix
+                && self.is_left_behind([other, &mut new], &self.all, STILL_FAR, &kinds)
+        };
+        let out = runners.extract_if(.., is_far).map(|runner| runner.measured).collect();
+        runners.push(new);
+        out
+    }
+
+    /// Whether one is far from another in each of a few turns with it, and as fast as `kinds` for
+    /// no kind of rays.
+    fn is_left_behind(
+        &self,
+        [slow, fast]: [&mut Runner; 2],
+        log: &RayLog,
+        times: f64,
+        kinds: &[f64],
+    ) -> bool {
+        (0..TURNS).all(|_| {
+            let [best, nanos] = [&mut *fast, &mut *slow].map(|runner| self.turn(runner, log));
+            mixed(&nanos, log) > times * mixed(&best, log)
+                && nanos.iter().zip(kinds).all(|(nanos, best)| nanos > best)
+        })
+    }
+
+    /// Nanoseconds per ray of each set. With all rays they are kept.
+    fn turn(&self, runner: &mut Runner, log: &RayLog) -> Vec<f64> {
+        let nanos: Vec<f64> = log
+            .sets
+            .iter()
+            .map(|set| per_ray(shoot(&runner.world, set, self.limits.clock).worked, set))
+            .collect();
+        if std::ptr::eq(log, &self.all) {
+            for (times, &nanos) in runner.times.iter_mut().zip(&nanos) {
+                times.push(nanos);
+            }
+            let medians = runner.times.iter().map(|times| median(times)).collect();
+            self.sum_up(&mut runner.measured, medians);
+            runner.measured.rounds = runner.times.first().map_or(1, Vec::len);
+        }
+        nanos
+    }
+
+    /// Two turns that nobody keeps: the first builds what is built when rays come.
+    fn warm(&self, runner: &mut Runner, log: &RayLog) {
+        let clock = self.limits.clock;
+        let nanos = log.sets.iter().map(|set| {
+            let [first, second] = [0; 2].map(|_| shoot(&runner.world, set, clock));
+            runner.measured.build_seconds += (first.passed - second.passed).max(0.0);
+            per_ray(second.worked, set)
+        });
+        let nanos = nanos.collect();
+        self.sum_up(&mut runner.measured, nanos);
+    }
+
+    /// Lets all shoot, in turns, while there is time.
+    fn run(&self, runners: &mut [Runner]) {
+        for _ in 0..self.limits.options.rounds {
+            if self.limits.observer.stop() || !self.limits.is_time_for(&[]) {
+                break;
+            }
+            for runner in runners.iter_mut() {
+                self.turn(runner, &self.all);
             }
         }
     }
-    for Runner { measured, times, .. } in runners {
-        let rounds = times.first().map_or(0, Vec::len);
-        if rounds > 0 {
-            measured.nanos = times.iter_mut().map(|times| median(times)).collect();
-            measured.mix = mixed(&measured.nanos, log);
-            measured.total =
-                measured.mix + measured.build_seconds * 1e9 / options.rays_expected.max(1.0);
-            measured.rounds = rounds;
-        }
+
+    /// Takes note of what rays take.
+    fn sum_up(&self, measured: &mut Measured, nanos: Vec<f64>) {
+        measured.nanos = nanos;
+        measured.mix = mixed(&measured.nanos, &self.all);
+        let rays = self.limits.options.rays_expected.max(1.0);
+        measured.total = measured.mix + measured.build_seconds * 1e9 / rays;
     }
+}
+
+/// The fastest for the mix.
+fn fastest(runners: &[Runner]) -> Option<usize> {
+    let mix = |i: usize| runners[i].measured.mix;
+    (0..runners.len()).min_by(|&a, &b| mix(a).total_cmp(&mix(b)))
 }
 
 /// For each kind of rays what was fastest for those, if that is not the same for all.
@@ -234,37 +277,5 @@ fn nodes(plan: &Plan) -> usize {
     count(&plan.root) + plan.shared.values().map(count).sum::<usize>()
 }
 
-fn per_ray(seconds: f64, set: &RaySet) -> f64 {
-    seconds * 1e9 / set.rays.len().max(1) as f64
-}
-
-fn mixed(nanos: &[f64], log: &RayLog) -> f64 {
-    nanos.iter().zip(&log.sets).map(|(nanos, set)| nanos * set.weight).sum()
-}
-
-/// Seconds that the rays of a set take, in batches.
-fn shoot(world: &DynObject, set: &RaySet) -> f64 {
-    /// Rays in a batch.
-    const BATCH: usize = 4096;
-    let mut scratch = Scratch::new();
-    let mut hits: Vec<Hit> = Vec::new();
-    let mut blocked = Vec::new();
-    let begun = Instant::now();
-    for rays in set.rays.chunks(BATCH) {
-        if set.any {
-            blocked.clear();
-            blocked.resize(rays.len(), false);
-            world.any_hits(rays, &mut blocked, &mut scratch);
-        } else {
-            hits.clear();
-            hits.extend(rays.iter().map(|ray| Hit::none(ray.t_max())));
-            world.closest_hits(rays, &mut hits, &mut scratch);
-        }
-    }
-    begun.elapsed().as_secs_f64()
-}
-
-fn median(times: &mut [f64]) -> f64 {
-    times.sort_by(f64::total_cmp);
-    times.get(times.len() / 2).copied().unwrap_or(f64::INFINITY)
-}
+#[cfg(test)]
+mod tests;

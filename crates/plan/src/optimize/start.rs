@@ -36,13 +36,15 @@ pub(super) fn given(
     plan: &Plan,
     scene: &Scene,
     scorer: &Scorer<'_>,
+    limits: &Limits<'_>,
     archive: &mut Archive,
 ) -> Result<(), PlanError> {
     check(plan, scene)?;
     // What is found is marked in the end.
     let plan = Plan { scene: None, ..plan.clone() };
-    let score = scorer.score(&plan)?;
-    archive.add_given(plan, score);
+    let (score, seconds) = limits.score(scorer, &plan);
+    archive.efforts.note(&plan, seconds);
+    archive.add_given(plan, score?);
     Ok(())
 }
 
@@ -50,8 +52,8 @@ pub(super) fn given(
 const PROMISING: &[&str] =
     &[AUTO, "light-buffer", "eye-buffer", "reinsertion", "sbvh", "goldsmith-salmon", "slabs"];
 
-/// Tries each single technique, those that promise most first, then each preset of allowed ones. The
-/// very first is tried however little may be spent.
+/// Tries each single technique, those that promise most first, then each preset of allowed ones, as
+/// far as there is time for them. The very first is tried however little may be spent.
 ///
 /// # Errors
 /// If the parts of the scene do not fit together, or none of them can be built.
@@ -85,18 +87,24 @@ pub(super) fn singles(
         if some_known && limits.reached(archive.evaluations()) {
             break;
         }
-        // The budget may end within a group.
-        let room =
-            |&(i, _): &(usize, &&str)| !some_known || !limits.reached(archive.evaluations() + i);
-        let plans: Vec<(&str, Plan)> = group
-            .iter()
-            .enumerate()
-            .take_while(room)
-            .map(|(_, name)| name)
-            .map(|&name| Ok((name, single(name, Default::default(), scene)?)))
-            .collect::<Result<_, PlanError>>()?;
-        let scores: Vec<_> = plans.par_iter().map(|(_, plan)| scorer.score(plan)).collect();
-        for ((name, plan), score) in plans.into_iter().zip(scores) {
+        let mut plans = Vec::new();
+        let mut seconds = Vec::new();
+        for &name in group {
+            // The budget may end within a group.
+            if some_known && limits.reached(archive.evaluations() + plans.len()) {
+                break;
+            }
+            let plan = single(name, Default::default(), scene)?;
+            seconds.push(archive.efforts.expected(&plan));
+            if some_known && !limits.is_time_for(&seconds) {
+                seconds.pop();
+                continue;
+            }
+            plans.push((name, plan));
+        }
+        let scores: Vec<_> = plans.par_iter().map(|(_, plan)| limits.score(scorer, plan)).collect();
+        for ((name, plan), (score, seconds)) in plans.into_iter().zip(scores) {
+            archive.efforts.note(&plan, seconds);
             // A preset is a nest, not a technique alone.
             let alone = allowed.contains(&name).then(|| name.to_owned());
             let score = score.map_err(|error| wrong = Some(error)).ok();

@@ -1,5 +1,7 @@
 //! Searching small scenes.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use glam::Vec3A;
 use nestray_core::ray::{Ray, RayKind};
 use nestray_scene::procedural::generate;
@@ -206,4 +208,40 @@ fn a_given_plan_is_tried_with_the_others_and_must_fit() {
     assert!(found.finalists.iter().any(|one| one.finalist.name == "bvh"));
     let error = search(grid, Some("rot")).expect_err("there is none").to_string();
     assert!(error.contains("unknown node \"rot\"") && error.contains("\"root\""), "{error}");
+}
+
+/// A clock on which each look takes a second.
+#[derive(Debug, Default)]
+struct Slow(AtomicU32);
+
+impl Clock for Slow {
+    fn seconds(&self) -> f64 {
+        f64::from(self.0.fetch_add(1, Ordering::Relaxed))
+    }
+
+    fn worked(&self) -> f64 {
+        self.seconds()
+    }
+}
+
+#[test]
+fn nothing_is_begun_that_may_take_longer_than_there_is_time() {
+    let scene = generate("balls", Some(1)).expect("there is one");
+    let techniques = ["bvh", "sbvh", "grid"];
+    let tried = |seconds: u64| {
+        let time = Some(Duration::from_secs(seconds));
+        let techniques = techniques.map(str::to_owned).to_vec();
+        let options = Options { time, techniques, rounds: 1, ..Options::default() };
+        let clock = Slow::default();
+        let limits = Limits::new(&clock, &options, &Nobody);
+        let found = optimize_by(&scene, &log(&scene, 64), CostModel::usual(), &limits);
+        found.expect("it is sound").candidates
+    };
+    let uses = |tried: &[Candidate], technique: &str| {
+        let is_it = |node: &Node| matches!(node, Node::Nest(nest) if nest.technique == technique);
+        tried.iter().any(|one| one.plan.nodes().iter().any(|(_, node)| is_it(node)))
+    };
+    let [short, long] = [20, 500].map(tried);
+    assert_eq!(techniques.map(|technique| uses(&short, technique)), [true, false, true]);
+    assert!(uses(&long, "sbvh"));
 }
