@@ -46,12 +46,6 @@ impl Few {
 }
 
 impl<I: Index, C: Children> Accel<I, C> {
-    /// The children in a leaf that is not packed.
-    fn members_at(&self, leaf: Leaf) -> &[u32] {
-        let at = leaf.0 as usize;
-        &self.table[at + 1..][..self.table[at] as usize]
-    }
-
     /// The rays of `mask` that have not yet been tested with a member.
     fn fresh(
         &self,

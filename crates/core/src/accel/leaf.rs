@@ -28,6 +28,12 @@ impl<I: Index, C: Children> Accel<I, C> {
         if I::LISTS {
             return this.index.listed(this.cursor, leaf);
         }
+        self.members_at(leaf)
+    }
+
+    /// The same, where the technique does not list them itself.
+    #[inline(always)]
+    pub(super) fn members_at(&self, leaf: Leaf) -> &[u32] {
         let at = leaf.0 as usize;
         &self.table[at + 1..][..self.table[at] as usize]
     }
