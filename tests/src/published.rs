@@ -8,6 +8,8 @@ pub mod figures;
 
 pub mod plain;
 
+pub mod ranks;
+
 pub mod witness;
 
 use std::collections::BTreeMap;

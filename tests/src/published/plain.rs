@@ -1,5 +1,6 @@
 //! Cells as plain as those of old programs: every cell is there, empty or not, a child is listed in
-//! each that its box touches, and nothing is weighed. They say what is counted where ours differ.
+//! each that its box touches, and nothing is weighed but where planes are, if that is asked for.
+//! They say what is counted where ours differ.
 
 use glam::DVec3;
 
@@ -45,6 +46,18 @@ pub struct Visits {
     pub located: f64,
 }
 
+/// Where cells are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Places {
+    /// In the middle.
+    Middle,
+    /// Where tests cost least, of a few places from the middle of the cell to that of the children.
+    ByCost,
+}
+
+/// Places tried for each plane.
+const PLACES: usize = 10;
+
 /// A cell.
 #[derive(Debug)]
 enum Cell {
@@ -74,12 +87,12 @@ impl Plain {
         Self { whole: Part { min: middle - half, max: middle + half }, ..self }
     }
 
-    /// What rays do in an octree whose cells with more than one child are halved along all axes,
+    /// What rays do in an octree whose cells with more than one child are cut in two along all axes,
     /// at most `depth` times.
     #[must_use]
-    pub fn octree(&self, depth: u32) -> Visits {
+    pub fn octree(&self, depth: u32, places: Places) -> Visits {
         let all = (0..self.parts.len() as u32).collect();
-        let root = self.eighths(self.whole, all, depth);
+        let root = self.eighths(self.whole, all, depth, places);
         let mut sum = Visits::default();
         for shot in &self.shots {
             if let Some(span) = self.whole.cut(shot) {
@@ -90,11 +103,14 @@ impl Plain {
         Visits { tests: each(sum.tests), cells: each(sum.cells), located: each(sum.located) }
     }
 
-    fn eighths(&self, cell: Part, inside: Vec<u32>, depth: u32) -> Cell {
+    fn eighths(&self, cell: Part, inside: Vec<u32>, depth: u32, places: Places) -> Cell {
         if inside.len() <= 1 || depth == 0 {
             return Cell::Whole(inside);
         }
-        let middle = (cell.min + cell.max) * 0.5;
+        let mut middle = (cell.min + cell.max) * 0.5;
+        if places == Places::ByCost {
+            middle = DVec3::from_array([0, 1, 2].map(|axis| self.cheapest(&cell, &inside, axis)));
+        }
         let eighth = |number: usize| {
             let mut part = cell;
             for axis in 0..3 {
@@ -103,9 +119,38 @@ impl Plain {
             }
             let touches = |&child: &u32| self.parts[child as usize].touches(&part);
             let inside = inside.iter().copied().filter(touches).collect();
-            self.eighths(part, inside, depth - 1)
+            self.eighths(part, inside, depth - 1, places)
         };
         Cell::Eighths(middle, Box::new([0, 1, 2, 3, 4, 5, 6, 7].map(eighth)))
+    }
+
+    /// Where a plane across an axis makes tests of the children cheapest for a random line.
+    fn cheapest(&self, cell: &Part, inside: &[u32], axis: usize) -> f64 {
+        let ends = inside.iter().map(|&child| {
+            let part = &self.parts[child as usize];
+            [part.min[axis], part.max[axis]]
+        });
+        let ends: Vec<[f64; 2]> = ends.collect();
+        let [low, high] = [cell.min[axis], cell.max[axis]];
+        let mut centers: Vec<f64> =
+            ends.iter().map(|[min, max]| (min.max(low) + max.min(high)) * 0.5).collect();
+        let half = centers.len() / 2;
+        let (_, &mut median, _) = centers.select_nth_unstable_by(half, f64::total_cmp);
+        let size = cell.max - cell.min;
+        let (b, c) = (size[(axis + 1) % 3], size[(axis + 2) % 3]);
+        let area = |length: f64| length * (b + c) + b * c;
+        let cost = |at: f64| {
+            let below = ends.iter().filter(|[min, _]| *min < at).count() as f64;
+            let above = ends.iter().filter(|[_, max]| *max > at).count() as f64;
+            below * area(at - low) + above * area(high - at)
+        };
+        let middle = (low + high) * 0.5;
+        (0..PLACES)
+            .map(|place| middle + (median - middle) * (place as f64 / (PLACES - 1) as f64))
+            .filter(|&at| low < at && at < high)
+            .map(|at| (at, cost(at)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map_or(middle, |(at, _)| at)
     }
 }
 
