@@ -3,12 +3,15 @@
 //! as a list does.
 #![expect(clippy::print_stdout, reason = "how long it took is for people to look at")]
 
+use std::fs;
+use std::sync::Arc;
 use std::thread;
 use std::time::Instant;
 
-use glam::Vec3A;
+use glam::{Affine3A, Quat, Vec3, Vec3A};
 use nestray_core::cost::CostModel;
 use nestray_core::hit::Hit;
+use nestray_core::moving::{Keys, Moving};
 use nestray_core::object::{DynObject, Object};
 use nestray_core::ray::{Ray, RayKind};
 use nestray_core::scratch::Scratch;
@@ -40,15 +43,25 @@ fn ball(center: Vec3A, radius: f32) -> AnyShape {
     Sphere { center, radius }.into()
 }
 
-/// The worlds, by what they are; the first is random.
-fn worlds(count: usize) -> Vec<(&'static str, Vec<AnyShape>)> {
+/// Worlds, by what they are; the first is random.
+type Worlds = Vec<(&'static str, Members)>;
+
+/// A ball that moves: its radius, where it is at first and in the end.
+type Mover = (f32, [Vec3A; 2]);
+
+/// Worlds of what stands still.
+fn still(count: usize) -> Worlds {
     let mut numbers = Numbers::new(31);
     let mut all = |one: &mut dyn FnMut(&mut Numbers, usize) -> AnyShape| {
-        (0..count).map(|i| one(&mut numbers, i)).collect::<Vec<_>>()
+        let single = |i| Single::new(i as u32, one(&mut numbers, i));
+        Members::Shapes((0..count).map(single).collect())
     };
     let part = |i: usize| i as f32 / count as f32;
+    // However many there are, as many are at each point.
+    let size = 0.126 / libm::cbrtf(count as f32);
+    let width = 0.9 / (count as f32).sqrt();
     vec![
-        ("random", all(&mut |numbers, _| ball(numbers.point(), 0.01))),
+        ("random", all(&mut |numbers, _| ball(numbers.point(), size))),
         ("in one place", all(&mut |_, _| ball(Vec3A::ONE, 0.5))),
         ("shell in shell", all(&mut |_, i| ball(Vec3A::ONE, libm::exp2f(-((i % 100) as f32))))),
         (
@@ -64,15 +77,76 @@ fn worlds(count: usize) -> Vec<(&'static str, Vec<AnyShape>)> {
             "without thickness",
             all(&mut |numbers, _| {
                 let corner = numbers.point() * Vec3A::new(1.0, 1.0, 0.0);
-                Parallelogram { corner, u: Vec3A::X * 0.02, v: Vec3A::Y * 0.02 }.into()
+                Parallelogram { corner, u: Vec3A::X * width, v: Vec3A::Y * width }.into()
             }),
         ),
     ]
 }
 
-fn nest(entry: &Entry, shapes: &[AnyShape]) -> DynObject {
-    let single = |(i, shape): (u32, &AnyShape)| Single::new(i, shape.clone());
-    let members = Members::Shapes((0..).zip(shapes).map(single).collect());
+/// Worlds of balls that move, each from one place to another.
+fn moving(count: usize) -> Worlds {
+    let mut numbers = Numbers::new(33);
+    let inside = nest("bvh", Members::Shapes(vec![Single::new(0, ball(Vec3A::ZERO, 1.0))]));
+    let mut all = |one: &mut dyn FnMut(&mut Numbers, usize) -> Mover| {
+        let object = |i| {
+            let (size, ends) = one(&mut numbers, i);
+            let place = |at: Vec3A| {
+                Affine3A::from_scale_rotation_translation(
+                    Vec3::splat(size),
+                    Quat::IDENTITY,
+                    at.into(),
+                )
+            };
+            let [from, to] = ends.map(place);
+            let keys = Keys::new(vec![(0.0, from), (1.0, to)]).expect("times ascend");
+            Arc::new(Moving::new(i as u32, Arc::clone(&inside), keys)) as DynObject
+        };
+        Members::Objects((0..count).map(object).collect())
+    };
+    let part = |i: usize| i as f32 / count as f32;
+    let size = 0.126 / libm::cbrtf(count as f32);
+    let way = Vec3A::new(0.1, 0.2, -0.1);
+    vec![
+        ("moving at random", all(&mut |numbers, _| (size, [numbers.point(), numbers.point()]))),
+        (
+            "moving slowly",
+            all(&mut |numbers, _| {
+                let from = numbers.point();
+                (size, [from, from + numbers.direction() * size * 10.0])
+            }),
+        ),
+        ("moving as one", all(&mut |_, _| (0.5, [Vec3A::ONE, Vec3A::ONE + way]))),
+        ("moving apart", all(&mut |numbers, _| (0.1, [Vec3A::ONE, numbers.point() * 3.0]))),
+        (
+            "moving to and fro",
+            all(&mut |_, i| {
+                let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+                (0.01, [Vec3A::X * side, Vec3A::X * -side])
+            }),
+        ),
+        (
+            "shells that move",
+            all(&mut |_, i| (libm::exp2f(-((i % 100) as f32)), [Vec3A::ONE, Vec3A::ONE + way])),
+        ),
+        (
+            "one huge that moves",
+            all(&mut |numbers, i| match i {
+                0 => (1e4, [Vec3A::ZERO, way]),
+                _ => (1e-4, [numbers.point(), numbers.point()]),
+            }),
+        ),
+        (
+            "moving in a row",
+            all(&mut |_, i| {
+                let from = Vec3A::X * part(i) * 100.0;
+                (0.01, [from, from + Vec3A::X])
+            }),
+        ),
+    ]
+}
+
+fn nest(technique: &str, members: Members) -> DynObject {
+    let entry = find(technique).expect("it is in the registry");
     (entry.build)(&Value::Null, members).expect("defaults")
 }
 
@@ -82,6 +156,7 @@ fn hits(world: &dyn Object) -> Vec<Hit> {
     for _ in 0..50 {
         let from = numbers.point() * 8.0 - 4.0;
         let ray = Ray::new(from, numbers.point() - from, RayKind::Diffuse);
+        let ray = ray.at_time(numbers.unit());
         let mut hit = Hit::none(ray.t_max());
         world.closest_hit(&ray, &mut hit, &mut scratch);
         hits.push(hit);
@@ -89,33 +164,81 @@ fn hits(world: &dyn Object) -> Vec<Hit> {
     hits
 }
 
+/// Runs with little stack.
+fn with_little_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    thread::scope(|scope| {
+        let builder = thread::Builder::new().stack_size(STACK);
+        let running = builder.spawn_scoped(scope, work).expect("a thread");
+        running.join().expect("it builds")
+    })
+}
+
+/// Kilobytes this process has, and the most it had since it was last asked, where one can know.
+fn kilobytes() -> [u64; 2] {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let of = |what: &str| {
+        let line = status.lines().find_map(|line| line.strip_prefix(what))?;
+        line.split_whitespace().next()?.parse().ok()
+    };
+    let found = ["VmRSS:", "VmHWM:"].map(|what| of(what).unwrap_or(0));
+    // If that cannot be written, the most is since the beginning.
+    let _ = fs::write("/proc/self/clear_refs", "5");
+    found
+}
+
+/// Seconds that all threads of this process have worked, where one can know.
+fn worked() -> f64 {
+    let all = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The name of the program, in brackets, may hold anything.
+    let fields = all.rsplit(')').next().unwrap_or_default().split_whitespace();
+    let ticks = fields.skip(11).take(2).map(|ticks| ticks.parse::<f64>().unwrap_or(0.0));
+    ticks.sum::<f64>() / 100.0
+}
+
+/// Builds each of the worlds by one technique and asks it; the first says what is usual.
+fn build_and_ask(entry: &Entry, worlds: &Worlds, expected: &[Vec<Hit>]) {
+    let mut usual = None;
+    for ((name, members), expected) in worlds.iter().zip(expected) {
+        let members = members.clone();
+        let (before, begin, work) = (kilobytes()[0], Instant::now(), worked());
+        let built = with_little_stack(|| nest(entry.name, members));
+        let (seconds, work) = (begin.elapsed().as_secs_f64(), worked() - work);
+        let peak = kilobytes()[1].saturating_sub(before) >> 10;
+        let begin = Instant::now();
+        assert!(hits(&*built) == *expected, "{} over a world {name}", entry.name);
+        let asked = begin.elapsed().as_secs_f64();
+        let bytes = built.cost(CostModel::usual()).bytes;
+        let (worked, byte) = *usual.get_or_insert((work, bytes));
+        println!(
+            "{:18} {name:20} {seconds:7.2} s, worked {work:7.2} s {:5.2}; {:5} MB {:5.2}, peak {peak} MB; \
+             asked {asked:.3} s",
+            entry.name,
+            work / worked.max(0.01),
+            bytes >> 20,
+            bytes as f64 / byte as f64,
+        );
+        assert!(
+            bytes <= MEMORY * byte,
+            "{} over a world {name}: {bytes} bytes, {byte} over a random one",
+            entry.name
+        );
+    }
+}
+
+fn hold(worlds: &Worlds) {
+    let expected: Vec<_> =
+        worlds.iter().map(|(_, members)| hits(&*nest("list", members.clone()))).collect();
+    for entry in TECHNIQUES.iter().filter(|entry| is_asked_for(entry.name)) {
+        build_and_ask(entry, worlds, &expected);
+    }
+}
+
 #[test]
 fn odd_worlds_are_built_with_little_stack_and_memory_and_answered_as_by_lists() {
-    let worlds = worlds(children());
-    let list = find("list").expect("it is in the registry");
-    let expected: Vec<_> = worlds.iter().map(|(_, shapes)| hits(&*nest(list, shapes))).collect();
-    for entry in TECHNIQUES.iter().filter(|entry| is_asked_for(entry.name)) {
-        let mut usual = 0;
-        for ((name, shapes), expected) in worlds.iter().zip(&expected) {
-            let begin = Instant::now();
-            let build = || nest(entry, shapes);
-            let built = thread::scope(|scope| {
-                let builder = thread::Builder::new().stack_size(STACK);
-                let running = builder.spawn_scoped(scope, build).expect("a thread");
-                running.join().expect("it builds")
-            });
-            let seconds = begin.elapsed().as_secs_f32();
-            assert!(hits(&*built) == *expected, "{} over a world {name}", entry.name);
-            let bytes = built.cost(CostModel::usual()).bytes;
-            println!("{:20} {name:20} {seconds:8.2} s {:6} MB", entry.name, bytes >> 20);
-            if usual == 0 {
-                usual = bytes;
-            }
-            assert!(
-                bytes <= MEMORY * usual,
-                "{} over a world {name}: {bytes} bytes, {usual} over a random one",
-                entry.name
-            );
-        }
-    }
+    hold(&still(children()));
+}
+
+#[test]
+fn odd_worlds_that_move_are_built_with_little_stack_and_memory_and_answered_as_by_lists() {
+    hold(&moving(children()));
 }

@@ -51,6 +51,11 @@ pub trait Children: Send + Sync {
         self.bounds(child)
     }
 
+    /// [`Object::moves_evenly`] for one child.
+    fn moves_evenly(&self, _child: u32, _time: [f32; 2]) -> bool {
+        false
+    }
+
     /// [`Object::clipped`] for one child.
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
         self.bounds(child).meet(*cell)

@@ -42,6 +42,11 @@ pub trait Family: Sync {
     /// [`Object::bounds_during`](crate::object::Object::bounds_during), padded alike.
     fn bounds_during(&self, child: u32, time: [f32; 2]) -> Aabb;
 
+    /// [`Object::moves_evenly`](crate::object::Object::moves_evenly).
+    fn moves_evenly(&self, _child: u32, _time: [f32; 2]) -> bool {
+        false
+    }
+
     /// The part of a child's box that may touch `cell`, padded alike; see
     /// [`Object::clipped`](crate::object::Object::clipped).
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb;

@@ -110,6 +110,10 @@ impl Object for Fenced {
         self.object.bounds_during(time)
     }
 
+    fn moves_evenly(&self, time: [f32; 2]) -> bool {
+        self.object.moves_evenly(time)
+    }
+
     fn clipped(&self, cell: &Aabb) -> Aabb {
         self.object.clipped(cell)
     }

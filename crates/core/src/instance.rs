@@ -40,6 +40,11 @@ pub trait Motion: Debug + Send + Sync {
     /// A box around all places of `local` during `[from, to]`, where `local` is a box around
     /// the object at any time.
     fn sweep(&self, local: Aabb, time: [f32; 2]) -> Aabb;
+
+    /// Whether every point moves on a straight line at even speed during `[from, to]`.
+    fn is_even(&self, _time: [f32; 2]) -> bool {
+        !Self::MOVES
+    }
 }
 
 /// An object, transformed. Many instances may share one object, with all the
@@ -155,6 +160,12 @@ impl<O: Object, M: Motion> Object for Placed<O, M> {
             empty if empty.is_empty() => Aabb::EMPTY,
             bounds => bounds.padded(),
         }
+    }
+
+    /// A face is where the outermost corner is, and the outermost of several that move evenly is never
+    /// farther out than between where it is at both ends.
+    fn moves_evenly(&self, time: [f32; 2]) -> bool {
+        self.motion.is_even(time)
     }
 
     fn along(&self, direction: Vec3A) -> [f32; 2] {

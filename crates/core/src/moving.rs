@@ -90,6 +90,11 @@ impl Motion for Keys {
             .map(|place| local.transformed(place))
             .fold(Aabb::EMPTY, Aabb::join)
     }
+
+    /// Before the first key and after the last it rests.
+    fn is_even(&self, [from, to]: [f32; 2]) -> bool {
+        self.keys.iter().all(|key| key.0 <= from || to <= key.0)
+    }
 }
 
 impl<O: Object> Moving<O> {
@@ -117,6 +122,9 @@ mod tests {
         }
         let unit = Aabb { min: glam::Vec3A::ZERO, max: glam::Vec3A::ONE };
         assert_eq!(keys.sweep(unit, [0.0, 0.5]).max.x, 3.0);
+        let even = [[0.0, 0.25], [0.25, 0.75], [0.3, 0.4], [0.75, 1.0]];
+        assert!(even.iter().all(|&time| keys.is_even(time)));
+        assert!(!keys.is_even([0.0, 1.0]) && !keys.is_even([0.2, 0.3]));
     }
 
     #[test]

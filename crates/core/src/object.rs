@@ -33,6 +33,12 @@ pub trait Object: Send + Sync {
         self.bounds()
     }
 
+    /// Whether the box around it at any moment of `time` is, but for rounding, within one whose faces
+    /// move evenly from where they are at the beginning to where they are in the end.
+    fn moves_evenly(&self, _time: [f32; 2]) -> bool {
+        false
+    }
+
     /// The part of [`bounds`](Self::bounds) in which it may touch `cell`; empty if it does
     /// not. For spatial splits.
     fn clipped(&self, cell: &Aabb) -> Aabb {
@@ -177,6 +183,9 @@ macro_rules! ask_inside {
         }
         fn bounds_during(&self, time: [f32; 2]) -> Aabb {
             (**self).bounds_during(time)
+        }
+        fn moves_evenly(&self, time: [f32; 2]) -> bool {
+            (**self).moves_evenly(time)
         }
         fn clipped(&self, cell: &Aabb) -> Aabb {
             (**self).clipped(cell)

@@ -88,6 +88,10 @@ impl Family for Ordered<'_> {
         self.family.bounds_during(child, time)
     }
 
+    fn moves_evenly(&self, child: u32, time: [f32; 2]) -> bool {
+        self.family.moves_evenly(child, time)
+    }
+
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
         self.family.clipped(child, cell)
     }

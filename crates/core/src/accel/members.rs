@@ -85,6 +85,10 @@ impl<C: Children> Family for Members<C> {
         self.children.bounds_during(self.names.child(child), time).padded()
     }
 
+    fn moves_evenly(&self, child: u32, time: [f32; 2]) -> bool {
+        self.children.moves_evenly(self.names.child(child), time)
+    }
+
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
         match self.children.clipped(self.names.child(child), cell) {
             empty if empty.is_empty() => Aabb::EMPTY,

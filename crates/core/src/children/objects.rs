@@ -32,6 +32,10 @@ impl<O: Object> Children for Vec<O> {
         self[child as usize].bounds_during(time)
     }
 
+    fn moves_evenly(&self, child: u32, time: [f32; 2]) -> bool {
+        self[child as usize].moves_evenly(time)
+    }
+
     fn clipped(&self, child: u32, cell: &Aabb) -> Aabb {
         self[child as usize].clipped(cell)
     }

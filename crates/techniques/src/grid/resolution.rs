@@ -34,13 +34,23 @@ pub(super) fn resolution(
             .find(|&cells| counted.fits(cells));
         return fits.unwrap_or([1; 3]);
     }
-    DENSITIES
-        .iter()
-        .map(|&density| cells(params, bounds, boxes.len(), density))
-        .chain([[1; 3]])
-        .filter(|&cells| counted.fits(cells))
-        .min_by(|&a, &b| counted.cost(a).total_cmp(&counted.cost(b)))
-        .unwrap_or([1; 3])
+    let fits = |density: f32| {
+        Some(cells(params, bounds, boxes.len(), density)).filter(|&cells| counted.fits(cells))
+    };
+    let mut tried: Vec<[u32; 3]> = DENSITIES.iter().filter_map(|&density| fits(density)).collect();
+    if tried.is_empty() {
+        // Children overlap much: the finest below.
+        let below = halves(DENSITIES[0].into(), boxes.len() as f64);
+        tried.extend(below.filter_map(|all| fits((all / boxes.len() as f64) as f32)).next());
+    }
+    let tried = tried.into_iter().chain([[1; 3]]);
+    tried.min_by(|&a, &b| counted.cost(a).total_cmp(&counted.cost(b))).unwrap_or([1; 3])
+}
+
+/// So many cells as `density` says for each of `count` children, half as many, and so on down to one.
+pub(crate) fn halves(density: f64, count: f64) -> impl Iterator<Item = f64> {
+    let halves = std::iter::successors(Some(density * count), |&wanted| Some(wanted / 2.0));
+    halves.take_while(|&wanted| wanted > 0.5)
 }
 
 /// About cubical cells, `density` per child.

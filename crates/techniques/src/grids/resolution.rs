@@ -5,7 +5,7 @@ use nestray_core::aabb::Aabb;
 
 use super::build::Crowd;
 use super::frame::Frame;
-use crate::grid::resolution::{self, Counted, Limits, STEP, cube_root, steps};
+use crate::grid::resolution::{self, Counted, Limits, STEP, cube_root, halves, steps};
 
 /// Most entries in leaves for each child, and for all together.
 pub(super) const MOST_ENTRIES: f64 = 16.0;
@@ -28,9 +28,8 @@ pub(crate) fn fitting(crowd: &Crowd<'_>, density: f64) -> [u32; 3] {
     let (boxes, weights) = crowd.parts();
     let counted = counted(crowd, &boxes, &weights);
     let count = crowd.inside.len() as f64;
-    let halves = std::iter::successors(Some(density), |&density| Some(density / 2.0));
-    let tried = halves.take_while(|density| density * count > 0.5);
-    tried.map(|d| cubical(crowd, d * count)).find(|&cells| counted.fits(cells)).unwrap_or([1; 3])
+    let mut tried = halves(density, count).map(|wanted| cubical(crowd, wanted));
+    tried.find(|&cells| counted.fits(cells)).unwrap_or([1; 3])
 }
 
 /// What makes testing the children cheapest for a random line, of `densities` in cells a child;
@@ -118,12 +117,19 @@ pub(crate) fn sparsest(crowd: &Crowd<'_>) -> [u32; 3] {
         let visited = occupied * (2.0 - occupied);
         steps(cells, crowd.bounds) * visited * STEP + counted.tests(cells)
     };
-    FINE.iter()
-        .map(|&density| cubical(crowd, density * boxes.len() as f64))
+    let count = boxes.len() as f64;
+    let found = FINE
+        .iter()
+        .map(|&density| cubical(crowd, density * count))
         .filter(|&cells| counted.fits(cells))
         .map(|cells| (cells, cost(&cells)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map_or([1; 3], |(cells, _)| cells)
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    // Where children overlap much, even these may be too many.
+    let coarser = || halves(FINE[0], count).map(|wanted| cubical(crowd, wanted));
+    found
+        .map(|(cells, _)| cells)
+        .or_else(|| coarser().find(|&cells| counted.fits(cells)))
+        .unwrap_or([1; 3])
 }
 
 /// Which part of the cells has children in it, but for children in most of them.

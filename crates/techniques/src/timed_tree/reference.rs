@@ -21,6 +21,8 @@ pub(crate) struct Reference {
 
 /// Parts of the time looked at, for a child that moves by less and more than its own size.
 const PARTS: [f32; 2] = [4.0, 64.0];
+/// Moments looked at, as parts of the time, for one that moves evenly.
+const MOMENTS: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Reference {
     pub(super) const NOWHERE: u32 = u32::MAX;
@@ -42,30 +44,40 @@ impl Reference {
         let bounds = Linear { begin, end: moment(time[1]), within: whole };
         let (extent, shift) = (begin.size().element_sum(), whole.size().element_sum());
         let parts = (8.0 * (shift - extent) / extent.max(1e-3 * shift)).clamp(PARTS[0], PARTS[1]);
-        let (bounds, snug) = around(bounds, time, parts as usize, during);
+        let (bounds, snug) = if family.moves_evenly(child, time) {
+            // Moments will do: between them nothing is farther out.
+            let moments = MOMENTS.map(|share| [lerp(time, share) as f32; 2]);
+            around(bounds, time, &moments, during)
+        } else {
+            around(bounds, time, &spans(time, parts as usize), during)
+        };
         Self { child, halves: Self::NOWHERE, bounds, snug: snug as f32 }
     }
 }
 
-/// Moves the faces of `bounds` outwards, each by the same at all times, until it contains what
-/// `during` says of each of so many equal `parts` of `time`; and the mean area of those.
-fn around(
-    bounds: Linear,
-    time: [f32; 2],
-    parts: usize,
-    during: impl Fn([f32; 2]) -> Aabb,
-) -> (Linear, f64) {
+/// So many equal parts of `time`.
+fn spans(time: [f32; 2], parts: usize) -> Vec<[f32; 2]> {
     let moment = |part: usize| {
         let share = part as f64 / parts as f64;
         if part == parts { time[1] } else { (lerp(time, share) as f32).min(time[1]) }
     };
+    (0..parts).map(|part| [moment(part), moment(part + 1)]).collect()
+}
+
+/// Moves the faces of `bounds` outwards, each by the same at all times, until it contains what
+/// `during` says of each of the `spans` of `time`; and the mean area of those.
+fn around(
+    bounds: Linear,
+    time: [f32; 2],
+    spans: &[[f32; 2]],
+    during: impl Fn([f32; 2]) -> Aabb,
+) -> (Linear, f64) {
     let share =
         |time_at: f32| f64::from(time_at - time[0]) / (f64::from(time[1]) - f64::from(time[0]));
     let (mut low, mut high, mut snug) = ([0f64; 3], [0f64; 3], 0.0);
-    for part in 0..parts {
-        let span = [moment(part), moment(part + 1)];
+    for &span in spans {
         let inside = during(span);
-        snug += Linear::still(inside).mean_area() / parts as f64;
+        snug += Linear::still(inside).mean_area() / spans.len() as f64;
         for at in span.map(share) {
             for axis in 0..3 {
                 let lower = lerp([bounds.begin.min[axis], bounds.end.min[axis]], at);
