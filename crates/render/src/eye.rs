@@ -51,13 +51,21 @@ impl Eye {
         }
     }
 
-    /// The ray of a sample of a pixel, or of a corner: the one above and left of the pixel.
-    pub(crate) fn start(&self, [column, row]: [u32; 2], sample: u32) -> Start {
-        let [width, height] = self.resolution;
+    /// The numbers of a sample of a pixel, or of a corner: the one above and left of the pixel.
+    pub(crate) fn sampler(&self, [column, row]: [u32; 2], sample: u32) -> Sampler {
         // One more a row than pixels, for the last corner.
-        let pixel = row.wrapping_mul(width + 1).wrapping_add(column);
-        let sampler = Sampler::new(pixel, self.first + sample, self.seed);
-        let [u, v, lens_u, lens_v] = sampler.four(Set::Eye);
+        let pixel = row.wrapping_mul(self.resolution[0] + 1).wrapping_add(column);
+        Sampler::new(pixel, self.first + sample, self.seed)
+    }
+
+    /// The ray of a sample, given the numbers of its [`Set::Eye`].
+    pub(crate) fn start(
+        &self,
+        [column, row]: [u32; 2],
+        sampler: Sampler,
+        [u, v, lens_u, lens_v]: [f32; 4],
+    ) -> Start {
+        let [width, height] = self.resolution;
         let (at, weight) = match &self.places {
             None => ([0.0, 0.0], 1.0),
             Some(places) => {

@@ -1,11 +1,13 @@
 //! The whole of it: tiles shared out to threads, waves of rays, pixels.
 
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use nestray_core::counters::Counters;
 use nestray_core::object::Object;
 use nestray_core::scratch::Scratch;
+use nestray_core::simd::Level;
 use nestray_scene::check::SceneError;
 use nestray_scene::picture::Picture;
 use nestray_scene::scene::Scene;
@@ -23,6 +25,7 @@ use crate::integrator::whitted::Whitted;
 use crate::light_sampling::Lights;
 use crate::options::{Integrator, Options, RenderError};
 use crate::ray_counts::RayCounts;
+use crate::sampler::{Sampler, Set, fours as sample};
 use crate::tile::{Tile, tiles};
 use crate::tracer::Tracer;
 use crate::watch::{Progress, Watch};
@@ -142,6 +145,7 @@ impl Job<'_> {
         let mut hand = Hand {
             tracer: Tracer::new(self.world, self.surfaces, scratch, self.options.wave),
             integrator: self.integrator(),
+            making: Making::default(),
             starts: Vec::new(),
             seen: Vec::new(),
         };
@@ -177,9 +181,10 @@ impl Job<'_> {
         }
     }
 
-    /// Renders a tile wave by wave, pixel after pixel, all samples of each.
+    /// Renders a tile wave by wave, pixel after pixel, all samples of each: neighbours together,
+    /// so that their rays are packets.
     fn tile(&self, hand: &mut Hand<'_>, film: &mut TileFilm) {
-        let Hand { tracer, integrator, starts, seen } = hand;
+        let Hand { tracer, integrator, making, starts, seen } = hand;
         let tile = film.tile;
         let samples = self.options.samples as usize;
         let all = tile.pixels() * samples;
@@ -189,27 +194,60 @@ impl Job<'_> {
             wave => wave,
         };
         let wave = integrator.starts(wave);
+        tile.order(&mut making.pixels);
         let mut done = 0;
         while done < all && !self.progress.stopped() {
             let end = done.saturating_add(wave).min(all);
-            let start = |i: usize| self.eye.start(tile.pixel(i / samples), (i % samples) as u32);
-            starts.clear();
-            starts.extend((done..end).map(start));
+            self.start(making, tracer.scratch.level, (tile, done..end), starts);
             let before = tracer.counts.total().cast;
             integrator.trace(tracer, starts, seen);
             for (i, (start, seen)) in (done..).zip(starts.iter().zip(&*seen)) {
-                film.add(i / samples, seen, start.weight);
+                film.add(making.pixels[i / samples] as usize, seen, start.weight);
             }
             self.progress.add((end - done) as u64, tracer.counts.total().cast - before);
             done = end;
         }
     }
+
+    /// The rays of some samples of a tile.
+    fn start(
+        &self,
+        Making { pixels, samplers, fours }: &mut Making,
+        level: Level,
+        (tile, which): (Tile, Range<usize>),
+        starts: &mut Vec<Start>,
+    ) {
+        let samples = self.options.samples as usize;
+        let pixel = |i: usize| tile.pixel(pixels[i / samples] as usize);
+        samplers.clear();
+        let sampler = |i: usize| self.eye.sampler(pixel(i), (i % samples) as u32);
+        samplers.extend(which.clone().map(sampler));
+        sample(level, Set::Eye, samplers.iter(), fours);
+        starts.clear();
+        let numbers = samplers.iter().zip(&*fours);
+        starts.extend(
+            which
+                .zip(numbers)
+                .map(|(i, (sampler, &four))| self.eye.start(pixel(i), *sampler, four)),
+        );
+    }
+}
+
+/// What rays of a tile are made from.
+#[derive(Default)]
+struct Making {
+    /// The pixels in order.
+    pixels: Vec<u32>,
+    /// Those of a wave, and their numbers.
+    samplers: Vec<Sampler>,
+    fours: Vec<[f32; 4]>,
 }
 
 /// What a thread works with.
 struct Hand<'a> {
     tracer: Tracer<'a>,
     integrator: Box<dyn Integrate + 'a>,
+    making: Making,
     /// Room for a wave.
     starts: Vec<Start>,
     /// What each of them saw.

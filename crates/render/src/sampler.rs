@@ -4,11 +4,19 @@
 //! Owen-scrambled Sobol points, four dimensions at a time, each set of four shuffled apart
 //! [Burley 20].
 
+mod many;
+
 use std::sync::LazyLock;
 
 use sobol_burley::parts::{
     Int4, hash, hash_int4, owen_scramble_int4_rev, owen_scramble_rev, sobol_int4_rev,
 };
+
+pub(crate) use self::many::fours;
+
+/// By which the seeds of the shuffle and of each dimension differ.
+const SHUFFLE: u32 = 0x79c6_8e4a;
+const DIMENSIONS: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
 
 /// The numbers of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +53,12 @@ impl Sampler {
 
     /// Four numbers in `[0, 1)`.
     pub(crate) fn four(&self, set: Set) -> [f32; 4] {
+        point(self.reversed, self.seed_of(set))
+    }
+
+    /// By which the four dimensions are shuffled.
+    #[inline(always)]
+    fn seed_of(&self, set: Set) -> u32 {
         let (a, b) = match set {
             Set::Eye => (0, 0),
             Set::Time => (1, 0),
@@ -52,17 +66,13 @@ impl Sampler {
             Set::Scatter(depth) => (3, depth),
             Set::Pass(depth, again) => (4 + again, depth),
         };
-        let seed = mix(u64::from(self.seed) << 32 ^ u64::from(a) << 16 ^ u64::from(b));
-        point(self.reversed, seed as u32)
+        mix(u64::from(self.seed) << 32 ^ u64::from(a) << 16 ^ u64::from(b)) as u32
     }
 }
 
 /// What [`sobol_burley::sample_4d`] gives of the first four dimensions, without its walk from bit
 /// to bit, whose length nobody can foresee.
 fn point(reversed: u32, seed: u32) -> [f32; 4] {
-    /// By which the seeds of the shuffle and of each dimension differ.
-    const SHUFFLE: u32 = 0x79c6_8e4a;
-    const DIMENSIONS: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
     let shuffled = owen_scramble_rev(reversed, hash(seed ^ SHUFFLE));
     let part = |i: usize| SOBOL[i][(shuffled >> (28 - 4 * i)) as usize & 15];
     let sobol = part(0) ^ part(1) ^ part(2) ^ part(3);
@@ -78,6 +88,7 @@ static SOBOL: LazyLock<[[Int4; 16]; 4]> = LazyLock::new(|| {
 });
 
 /// A number that looks random, for every number; the end of [Steele 14]'s generator.
+#[inline(always)]
 pub(crate) fn mix(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

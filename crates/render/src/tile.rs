@@ -39,6 +39,18 @@ impl Tile {
         self.width() * (self.to[1] - self.from[1]) as usize
     }
 
+    /// Fills in its pixels in an order in which neighbours are near one another: first in twos,
+    /// then in fours of those, and so on.
+    pub(crate) fn order(&self, pixels: &mut Vec<u32>) {
+        let [width, height] = [0, 1].map(|axis| self.to[axis] - self.from[axis]);
+        let every_second_bit = |of: u32| (0..5).map(|i| (of >> (2 * i) & 1) << i).sum::<u32>();
+        pixels.clear();
+        pixels.extend((0..SIDE * SIDE).filter_map(|i| {
+            let (x, y) = (every_second_bit(i), every_second_bit(i >> 1));
+            (x < width && y < height).then_some(y * width + x)
+        }));
+    }
+
     /// Column and row of its `i`-th pixel.
     pub(crate) fn pixel(&self, i: usize) -> [u32; 2] {
         let (row, column) = (i / self.width(), i % self.width());
@@ -65,6 +77,14 @@ mod tests {
                 let inside = i % 103 >= 3 && i / 103 >= 5;
                 assert_eq!(count, i32::from(inside));
             }
+        }
+        let mut order = Vec::new();
+        for tile in tiles(window, None) {
+            tile.order(&mut order);
+            assert_eq!(order[..2], [0, 1]);
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..tile.pixels() as u32));
+            order = Vec::new();
         }
         assert_ne!(tiles(window, None), tiles(window, Some(1)));
     }

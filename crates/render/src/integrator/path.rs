@@ -22,7 +22,7 @@ use crate::background;
 use crate::eye::{Seen, Start};
 use crate::light_sampling::Lights;
 use crate::look::Look;
-use crate::sampler::Set;
+use crate::sampler::{Set, fours};
 use crate::tracer::{Tracer, source};
 
 /// See [`Integrator::Path`](crate::options::Integrator).
@@ -44,6 +44,9 @@ pub(crate) struct Room {
     hits: Vec<Hit>,
     /// The walks that go on, and their rays.
     next: (Vec<Walk>, Vec<Ray>),
+    /// The numbers of those that hit something: for a light, and for the way on.
+    lights: Vec<[f32; 4]>,
+    onwards: Vec<[f32; 4]>,
     shadows: Shadows,
 }
 
@@ -77,7 +80,7 @@ impl Integrate for Path<'_> {
             density: 0.0,
             sharp: true,
         };
-        let Room { walks, rays, hits, next, shadows } = &mut room;
+        let Room { walks, rays, hits, next, lights, onwards, shadows } = &mut room;
         walks.clear();
         walks.extend(starts.iter().enumerate().map(fresh));
         rays.clear();
@@ -87,11 +90,22 @@ impl Integrate for Path<'_> {
             tracer.closest_solid(rays, hits, |i, tries, alpha| {
                 passes_by_chance(&starts[walks[i].start as usize], depth, tries, alpha)
             });
+            let which = walks.iter().zip(&*hits).filter(|(_, hit)| hit.is_some());
+            let which = which.map(|(walk, _)| &starts[walk.start as usize].sampler);
+            let level = tracer.scratch.level;
+            fours(level, Set::Light(depth), which.clone(), lights);
+            fours(level, Set::Scatter(depth), which, onwards);
+            let mut numbers = lights.iter().zip(&*onwards);
             for (i, ((walk, ray), hit)) in walks.iter().zip(&*rays).zip(&*hits).enumerate() {
                 tracer.touch(hits, i);
                 let start = &starts[walk.start as usize];
                 let step = Step { depth, walk, start, ray, hit };
-                self.step(tracer, &step, &mut seen[walk.start as usize], shadows, next);
+                let seen = &mut seen[walk.start as usize];
+                if !hit.is_some() {
+                    self.missed(tracer.scene(), &step, seen);
+                } else if let Some((&light, &onward)) = numbers.next() {
+                    self.step(tracer, &step, (light, onward), seen, shadows, next);
+                }
             }
             shadows.settle(tracer, seen);
             mem::swap(walks, &mut next.0);
@@ -107,22 +121,16 @@ impl Integrate for Path<'_> {
 }
 
 impl Path<'_> {
-    /// All that one path does where its ray ended.
+    /// All that one path does where its ray hit something.
     fn step(
         &self,
         tracer: &Tracer<'_>,
         step: &Step<'_>,
+        (light, onward): ([f32; 4], [f32; 4]),
         seen: &mut Seen,
         shadows: &mut Shadows,
         next: &mut (Vec<Walk>, Vec<Ray>),
     ) {
-        if !step.hit.is_some() {
-            self.missed(tracer.scene(), step, seen);
-            return;
-        }
-        // Both at once, long before they are needed: each takes its time.
-        let light = step.start.sampler.four(Set::Light(step.depth));
-        let onward = step.start.sampler.four(Set::Scatter(step.depth));
         let Some(met) = self.meet(tracer, step, light[3], seen) else { return };
         if let Some((waiting, ray)) = self.light(&met, step, light) {
             shadows.push(waiting, ray);
