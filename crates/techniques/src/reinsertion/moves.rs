@@ -6,6 +6,13 @@ use super::search::{Place, best_place};
 use super::tree::Tree;
 use crate::wide_tree::Binary;
 
+/// Steps upwards that a move may take without being counted: more than in any tree that is worth
+/// having.
+const USUAL: usize = 200;
+/// More steps than that which all moves of a pass take, at most, for each node: shells in shells, moved
+/// one into the other, become so deep that there would be no end.
+const FAR: usize = 16;
+
 /// The tree after a pass, as [`Binary::merged`] takes it; nodes marked as `leaves` move as a whole.
 /// It is the same for any number of threads: they only look, and moves are made one by one.
 pub(super) fn merges(share: f32, begin: &Binary<'_>, leaves: &[bool]) -> Vec<[u32; 2]> {
@@ -26,8 +33,14 @@ fn pass(tree: &mut Tree, share: f32) {
         })
         .collect();
     places.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.name.cmp(&b.name)));
+    let mut room = FAR * tree.nodes.len();
     for place in places {
+        let before = tree.climbed;
         put(tree, place);
+        let Some(left) = room.checked_sub((tree.climbed - before).saturating_sub(USUAL)) else {
+            break;
+        };
+        room = left;
     }
 }
 

@@ -8,6 +8,8 @@ use crate::wide_tree::{Binary, area};
 #[derive(Debug)]
 pub(super) struct Tree {
     pub(super) nodes: Vec<Node>,
+    /// Steps upwards made so far by moves.
+    pub(super) climbed: usize,
 }
 
 /// A node.
@@ -44,7 +46,7 @@ impl Tree {
                 nodes[side as usize].is_inside = nodes[me].is_whole || nodes[me].is_inside;
             }
         }
-        Self { nodes }
+        Self { nodes, climbed: 0 }
     }
 
     #[inline]
@@ -67,9 +69,10 @@ impl Tree {
     }
 
     /// Whether `name` is inside `around`, or is it.
-    pub(super) fn is_within(&self, mut name: u32, around: u32) -> bool {
+    pub(super) fn is_within(&mut self, mut name: u32, around: u32) -> bool {
         while name != 0 && name != around {
             name = self.node(name).parent;
+            self.climbed += 1;
         }
         name == around
     }
@@ -110,6 +113,7 @@ impl Tree {
             if fitting == bounds {
                 return growth;
             }
+            self.climbed += 1;
             growth += area(fitting) - area(bounds);
             self.nodes[name as usize].bounds = fitting;
             if name == 0 {
