@@ -123,7 +123,7 @@ impl Index for Grids {
     #[inline(always)]
     fn start<S: Simd>(&self, _simd: S, walk: &mut Walk<'_>, limit: f32) -> (Cursor, Step) {
         let clip = Clip::new(walk.ray, self.reach);
-        let Some(span) = clip.cut(&self.frames[0].bounds, limit) else {
+        let Some(span) = self.span(&clip, 0, limit) else {
             return (Cursor::default(), Step::DONE);
         };
         let forward = clip.inverse.cmpge(Vec3A::ZERO).bitmask() as u8;
@@ -155,7 +155,7 @@ impl Index for Grids {
             }
         } else if word != EMPTY {
             let clip = Clip::new(walk.ray, self.reach);
-            if let Some(span) = clip.cut(&self.frames[word as usize].bounds, limit) {
+            if let Some(span) = self.span(&clip, word, limit) {
                 return self.place(walk.ray, cursor, word, span);
             }
         }
@@ -186,7 +186,9 @@ impl Index for Grids {
             } else {
                 let [x, y, z] = cursor.crossing;
                 let axis = if x <= y && x <= z { 0 } else { 1 + usize::from(y > z) };
-                if cursor.crossing[axis] > limit {
+                // The outermost walls are beyond where the ray leaves its grid, for the next cell
+                // of the one around it.
+                if cursor.crossing[axis] > limit && cursor.exit > limit {
                     return Step::DONE;
                 }
                 let frame = &self.frames[cursor.grid as usize];

@@ -8,6 +8,13 @@ use super::frame::Frame;
 use super::{Cursor, Grids};
 
 impl Grids {
+    /// Where a ray enters a grid and leaves it again; none if it does not enter it within `limit`.
+    #[inline(always)]
+    pub(super) fn span(&self, clip: &Clip, grid: u32, limit: f32) -> Option<(f32, f32)> {
+        let span = clip.cut(&self.frames[grid as usize].bounds, f32::INFINITY);
+        span.filter(|&(enter, _)| enter <= limit)
+    }
+
     /// Places a ray in a grid that it is inside of from `enter` to `leave`.
     #[inline(always)]
     pub(super) fn place(

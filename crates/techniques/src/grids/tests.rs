@@ -8,6 +8,7 @@ use nestray_core::technique::{Leaf, Leaves, Step, Technique};
 
 use super::Grids;
 use super::block::Block;
+use super::frame::Frame;
 use crate::adaptive_grid::AdaptiveGrid;
 use crate::cells::tests::{Boxes, boxes};
 use crate::counted::{Numbers, expected_and_counted, spheres, walk};
@@ -27,7 +28,7 @@ pub(super) fn send(grids: &Grids, family: &Boxes, ray: &Ray) -> (Vec<u32>, usize
     (shown, steps)
 }
 
-/// Rays from near and far, some along an axis, some along walls.
+/// Rays from near and far, some along an axis, some along walls or nearly so; some end on the way.
 pub(super) fn rays(seed: u64, grids: &Grids, count: usize) -> Vec<Ray> {
     let mut numbers = Numbers::new(seed);
     let bounds = grids.bounds();
@@ -35,7 +36,7 @@ pub(super) fn rays(seed: u64, grids: &Grids, count: usize) -> Vec<Ray> {
         let mut dir = numbers.direction();
         for axis in 0..3 {
             if i / 8 % 4 > axis {
-                dir[(axis + i / 32) % 3] = [0.0, -0.0][i / 2 % 2];
+                dir[(axis + i / 32) % 3] = [0.0, -0.0, 0.02, -0.003][i / 2 % 4];
             }
         }
         let dir = if dir == Vec3A::ZERO { Vec3A::X } else { dir };
@@ -45,9 +46,23 @@ pub(super) fn rays(seed: u64, grids: &Grids, count: usize) -> Vec<Ray> {
             let frame = &grids.frames[i / 5 % grids.frames.len()];
             aim = Vec3A::new(frame.wall(1, 0), frame.wall(1, 1), frame.wall(1, 2));
         }
-        Ray::new(aim - dir * away, dir, RayKind::Camera)
+        let most = away + numbers.point().x * bounds.size().max_element();
+        let ray = Ray::new(aim - dir * away, dir, RayKind::Camera);
+        if i % 7 < 3 { ray.between(0.0, most) } else { ray }
     };
-    (0..count).map(ray).collect()
+    let mut rays: Vec<Ray> = (0..count).map(ray).collect();
+    rays.extend((0..count).map(|i| out_of(&grids.frames[i % grids.frames.len()], &mut numbers)));
+    rays
+}
+
+/// A ray that leaves a grid at a flat angle, and ends before it comes to the outermost wall.
+fn out_of(frame: &Frame, numbers: &mut Numbers) -> Ray {
+    let (axis, up) = ((numbers.point().x * 3.0) as usize % 3, numbers.point().x < 0.5);
+    let mut dir = numbers.direction() * frame.bounds.size().max_element();
+    let mut at = frame.bounds.min + numbers.point() * frame.bounds.size();
+    at[axis] = if up { frame.bounds.max[axis] } else { frame.bounds.min[axis] };
+    dir[axis] = frame.pad[axis] * if up { 1.0 } else { -1.0 };
+    Ray::new(at - dir, dir, RayKind::Camera).between(0.0, 1.0 + numbers.point().x)
 }
 
 fn nothing_is_missed<T: Technique<Index = Grids>>(technique: &T) {
