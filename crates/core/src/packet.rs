@@ -9,7 +9,7 @@ mod pencil;
 
 use glam::Vec3A;
 
-use crate::aabb::Aabb;
+use crate::aabb::{Aabb, Clip};
 use crate::beam::Beam;
 use crate::ray::Ray;
 use crate::simd::Simd;
@@ -210,6 +210,15 @@ impl Packet {
             mask |= simd.le(enter, leave) << half;
         }
         mask
+    }
+
+    /// One ray's part of the box tests, once the packet [faces](Self::face) the boxes.
+    #[inline(always)]
+    #[must_use]
+    pub fn clip(&self, ray: usize) -> Clip {
+        let at = |lanes: &[Lanes; 3]| Vec3A::new(lanes[0][ray], lanes[1][ray], lanes[2][ray]);
+        let Clips { inverse, near, far } = &self.clip;
+        Clip { inverse: at(inverse), near: at(near), far: at(far), t_min: self.t_min[ray] }
     }
 }
 

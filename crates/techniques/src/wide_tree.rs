@@ -151,6 +151,7 @@ impl Index for WideTree {
     const REPEATS: Repeats = Repeats::ByRule;
     const COPIES: usize = 1;
     const LEADS: bool = true;
+    const FEW: u32 = 4;
     type Cursor = Cursor;
 
     /// A node is visited as often as its box is met, its surface to the root's [Goldsmith 87]. A
@@ -219,6 +220,11 @@ impl Index for WideTree {
         lead: &mut Lead,
     ) -> Led {
         self.packet_on(simd, packet, trail, lead)
+    }
+
+    #[inline(always)]
+    fn part(&self, packet: &Packet, ray: usize, trail: &mut Trail) -> Cursor {
+        Cursor::of(packet.clip(ray), trail.reset())
     }
 
     #[inline(always)]

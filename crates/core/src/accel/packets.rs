@@ -9,7 +9,7 @@ use crate::packet::{self, Packet};
 use crate::ray::Ray;
 use crate::scratch::Scratch;
 use crate::simd::Simd;
-use crate::technique::{Index, Led};
+use crate::technique::{Asks, Index, Leaf, Led, Step, Walk};
 use crate::trail::Trail;
 
 /// Most rays that are looked through for packets at once.
@@ -155,39 +155,97 @@ impl<I: Index, C: Children> Accel<I, C> {
         scratch: &mut Scratch,
     ) -> bool {
         let Some(mut lead) = index.lead_in(simd, packet, trail) else { return false };
+        lead.few = I::FEW;
         self.members.children.probe_all(simd, packet, rays, probes);
         let mut seen = index.leads_again().then_some(Stamp::NONE);
-        let is_done = loop {
-            let (leaf, mask) = match index.lead_on(simd, packet, trail, &mut lead) {
-                Led::Leaf(leaf, mask) => (leaf, mask),
-                end => {
-                    if !ANY {
-                        self.members.children.tell_hits(packet, probes, hits);
+        let end = loop {
+            let these = (rays, &mut seen);
+            match index.lead_on(simd, packet, trail, &mut lead) {
+                Led::Leaf(leaf, mask) => {
+                    let (leaf, answers) = ((leaf, mask), (&mut *hits, &mut *blocked));
+                    self.leaf::<S, ANY>(simd, leaf, these, answers, (packet, probes), scratch);
+                }
+                Led::Alone(at, mask) => {
+                    let (rays, seen) = these;
+                    for lane in lanes(mask) {
+                        let (at, these) = ((at, lane), (rays, &mut *seen));
+                        let answers = &mut (&mut *hits, &mut *blocked);
+                        let parts = (&mut *packet, &mut *probes);
+                        self.alone::<S, ANY>(simd, index, at, these, answers, parts, scratch);
                     }
-                    break end == Led::Done;
                 }
-            };
-            if ANY {
-                let hit = if Self::PACKED {
-                    self.members.children.any_in_leaf_by(simd, leaf, mask, packet, probes)
-                } else {
-                    self.any_of_members((leaf, mask), &mut seen, rays, scratch)
-                };
-                for lane in lanes(hit) {
-                    blocked[lane] = true;
-                    packet.limit[lane] = f32::NEG_INFINITY;
-                }
-            } else if Self::PACKED {
-                let children = &self.members.children;
-                children.closest_in_leaf_by(simd, leaf, mask, packet, probes, hits);
-            } else {
-                self.closest_of_members((leaf, mask), &mut seen, rays, hits, scratch);
-                for lane in lanes(mask) {
-                    packet.limit[lane] = hits[lane].t;
-                }
+                end => break end,
             }
         };
+        if !ANY {
+            self.members.children.tell_hits(packet, probes, hits);
+        }
         scratch.mailbox.close(seen.unwrap_or_default());
-        is_done
+        end == Led::Done
+    }
+
+    /// Tests a leaf with some rays of a packet.
+    #[inline(always)]
+    fn leaf<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        (leaf, mask): (Leaf, u32),
+        (rays, seen): (&[Ray], &mut Option<Stamp>),
+        (hits, blocked): Answers<'_>,
+        (packet, probes): (&mut Packet, &mut C::Probes),
+        scratch: &mut Scratch,
+    ) {
+        if ANY {
+            let hit = if Self::PACKED {
+                self.members.children.any_in_leaf_by(simd, leaf, mask, packet, probes)
+            } else {
+                self.any_of_members((leaf, mask), seen, rays, scratch)
+            };
+            for lane in lanes(hit) {
+                blocked[lane] = true;
+                packet.limit[lane] = f32::NEG_INFINITY;
+            }
+        } else if Self::PACKED {
+            self.members.children.closest_in_leaf_by(simd, leaf, mask, packet, probes, hits);
+        } else {
+            self.closest_of_members((leaf, mask), seen, rays, hits, scratch);
+            for lane in lanes(mask) {
+                packet.limit[lane] = hits[lane].t;
+            }
+        }
+    }
+
+    /// One ray of a packet that goes on alone from where the packet is.
+    #[inline(always)]
+    fn alone<S: Simd, const ANY: bool>(
+        &self,
+        simd: S,
+        index: &I,
+        (mut at, lane): (Step, usize),
+        (rays, seen): (&[Ray], &mut Option<Stamp>),
+        (hits, blocked): &mut Answers<'_>,
+        (packet, probes): (&mut Packet, &mut C::Probes),
+        scratch: &mut Scratch,
+    ) {
+        let mut trail = Trail::new();
+        let mut cursor = index.part(packet, lane, &mut trail);
+        let mut walk = Walk { ray: &rays[lane], trail: &mut trail, family: &self.members };
+        loop {
+            while at.is_onward() {
+                let limit = packet.limit[lane];
+                at = index.step::<S, Asks<ANY, false>>(simd, &mut walk, &mut cursor, at, limit);
+            }
+            if at.is_done() {
+                return;
+            }
+            let leaf = (at.as_leaf(), 1 << lane);
+            let answers = (&mut **hits, &mut **blocked);
+            self.leaf::<S, ANY>(simd, leaf, (rays, seen), answers, (packet, probes), scratch);
+            let limit = packet.limit[lane];
+            if ANY && limit == f32::NEG_INFINITY {
+                return;
+            }
+            at = index.resume::<S, Asks<ANY, false>>(simd, &mut walk, &mut cursor, limit);
+        }
     }
 }

@@ -40,6 +40,9 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
     /// Whether it can lead packets of rays ([`lead_in`](Self::lead_in)).
     const LEADS: bool = false;
 
+    /// Up to so many rays of a packet go on alone from where it is; see [`part`](Self::part).
+    const FEW: u32 = 0;
+
     /// Where one ray stands, but for what it has put off ([`Trail`]): plain numbers, best
     /// within 48 bytes, so that it stays in registers or in one cache line.
     type Cursor: Copy + Default + Send;
@@ -86,6 +89,13 @@ pub trait Index: Debug + Send + Sync + Sized + 'static {
         _lead: &mut Lead,
     ) -> Led {
         Led::Apart
+    }
+
+    /// Where one ray of a packet stands that goes on alone from where the packet is: nothing is
+    /// put off. Of an index with [`FEW`](Self::FEW).
+    #[inline(always)]
+    fn part(&self, _packet: &Packet, _ray: usize, _trail: &mut Trail) -> Self::Cursor {
+        Self::Cursor::default()
     }
 
     /// Moves a ray that stands at the node or cell `at` by one. It may be shown any leaf that
@@ -136,6 +146,8 @@ pub struct Lead {
     pub top: Top,
     /// How many moves are left until its rays do better apart.
     pub left: u32,
+    /// Up to so many rays go on alone from where they are.
+    pub few: u32,
 }
 
 /// What a packet comes to.
@@ -143,6 +155,8 @@ pub struct Lead {
 pub enum Led {
     /// A leaf, and the rays that may meet it.
     Leaf(Leaf, u32),
+    /// A node or cell that these few rays go on from alone.
+    Alone(Step, u32),
     /// Nothing any more.
     Done,
     /// Too much: its rays do better apart, from the beginning.

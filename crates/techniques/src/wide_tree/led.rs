@@ -30,7 +30,7 @@ impl WideTree {
         }
         packet.face(simd, self.reach, self.slack);
         let pencil = Pencil::new(&packet.beam, self.reach);
-        let mut lead = Lead { pencil, top: trail.reset(), left: MOST };
+        let mut lead = Lead { pencil, top: trail.reset(), left: MOST, few: 0 };
         self.look_into(simd, 0, trail, &mut lead);
         Some(lead)
     }
@@ -64,6 +64,9 @@ impl WideTree {
             let at = Step::from_word(node.words[lane]);
             if !at.is_onward() {
                 return Led::Leaf(at.as_leaf(), rays);
+            }
+            if rays.count_ones() <= lead.few {
+                return Led::Alone(at, rays);
             }
             if lead.left == 0 {
                 return Led::Apart;
