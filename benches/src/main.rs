@@ -2,11 +2,11 @@
 //! writes `docs/performance.md`.
 //!
 //! `nestray-benches [--scenes FOLDER] [--results FOLDER] [--docs FOLDER] [--only NAME,…]
-//! [--growth] [--pictures] [--keep] [-- OPTIONS…]`: the folder of shared scenes, where measurements
-//! are put and where the page; only some scenes; how things grow with the size of a scene, too, and
-//! what batches bring to pictures; measurements that are there already are kept; what `nestray
-//! bench` is told besides, as `--rounds 9`. Without
-//! `--docs` no page is written, only measurements.
+//! [--growth] [--pictures] [--search] [--keep] [-- OPTIONS…]`: the folder of shared scenes, where
+//! measurements are put and where the page; only some scenes; how things grow with the size of a scene,
+//! too, and what batches bring to pictures; or instead what searches for plans find, for
+//! `docs/searches.md`; measurements that are there already are kept; what `nestray bench` is told
+//! besides, as `--rounds 9`. Without `--docs` no page is written, only measurements.
 
 mod growth;
 mod machine;
@@ -16,6 +16,7 @@ mod plot;
 mod reach;
 mod results;
 mod scenes;
+mod search;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -32,6 +33,7 @@ struct Args {
     only: Vec<String>,
     growth: bool,
     pictures: bool,
+    search: bool,
     keep: bool,
     /// For `nestray bench`.
     options: Vec<String>,
@@ -55,6 +57,7 @@ fn args() -> Result<Args, String> {
         only: Vec::new(),
         growth: false,
         pictures: false,
+        search: false,
         keep: false,
         options: Vec::new(),
     };
@@ -68,6 +71,7 @@ fn args() -> Result<Args, String> {
             "--only" => args.only = next()?.split(',').map(Into::into).collect(),
             "--growth" => args.growth = true,
             "--pictures" => args.pictures = true,
+            "--search" => args.search = true,
             "--keep" => args.keep = true,
             "--" => args.options = words.by_ref().collect(),
             _ => return Err(format!("{word} is no option: see the head of benches/src/main.rs")),
@@ -88,6 +92,11 @@ fn program() -> PathBuf {
 
 fn run(args: &Args) -> Result<(), String> {
     fs::create_dir_all(&args.results).map_err(|error| error.to_string())?;
+    if args.search {
+        let folders = (&*args.scenes, &*args.results);
+        let asked = |name: &str| asked(args, name);
+        return search::run(&program(), folders, args.docs.as_deref(), &asked, args.keep);
+    }
     let (mut all, mut rendered) = (Vec::new(), Vec::new());
     for scene in scenes::ALL.iter().filter(|scene| asked(args, scene.name)) {
         match scene.prepare(&args.scenes, &args.results.join("scenes")) {

@@ -62,6 +62,21 @@ pub(crate) enum Verb {
     Bench(BenchArgs),
     /// Find the plan that is fastest for a scene.
     Optimize(OptimizeArgs),
+    /// Find out what steps and tests cost on this machine, for searches to go by.
+    Calibrate(CalibrateArgs),
+}
+
+/// `nestray calibrate`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Takes some minutes, in which nothing else should run. What is found is kept in the \
+    user's cache folder, and searches go by it from then on; without, they go by the prices of \
+    another machine."
+)]
+pub(crate) struct CalibrateArgs {
+    /// Write the prices as JSON instead of keeping them in the cache.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 /// `nestray demo`.

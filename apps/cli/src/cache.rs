@@ -1,13 +1,15 @@
-//! What searches found, kept for the next time in the user's cache folder: a file for each scene,
-//! integrator and vector level.
+//! What searches and calibrations found, kept for the next time in the user's cache folder: a file for
+//! each scene, integrator and vector level, and one of prices.
 //!
 //! Nothing depends on it. A cache that cannot be read or written is worked without, and that is said
 //! once.
 
+mod prices;
+
 use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, Read as _, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use etcetera::{BaseStrategy as _, HomeDirError};
 use nestray::io::atomic::write_file;
@@ -89,14 +91,13 @@ impl Cache {
     /// What was found before; nothing if there is nothing of use.
     pub(crate) fn find(&self, key: &Key, scene: &Scene) -> Option<Entry> {
         let path = self.path(key)?;
-        let mut text = String::new();
-        match File::open(&path).and_then(|file| file.take(MOST).read_to_string(&mut text)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        match read(&path) {
+            Ok(None) => None,
             Err(error) => {
                 self.trouble(&format!("{}: {error}", path.display()));
                 None
             }
-            Ok(_) => match entry(&text, key, scene) {
+            Ok(Some(text)) => match entry(&text, key, scene) {
                 Ok(entry) => Some(entry),
                 Err(why) => {
                     self.trouble(&format!("{}: {why}", path.display()));
@@ -109,10 +110,13 @@ impl Cache {
     /// Keeps what was found.
     pub(crate) fn keep(&self, entry: &Entry) {
         let Some(path) = self.path(&entry.key) else { return };
-        let text = serde_json::to_string(entry).expect("an entry is plain data");
-        let folder = path.parent().unwrap_or(&path);
+        self.write(&path, &serde_json::to_string(entry).expect("an entry is plain data"));
+    }
+
+    fn write(&self, path: &Path, text: &str) {
+        let folder = path.parent().unwrap_or(path);
         let written = std::fs::create_dir_all(folder)
-            .and_then(|()| write_file(&path, |out| out.write_all(text.as_bytes())));
+            .and_then(|()| write_file(path, |out| out.write_all(text.as_bytes())));
         if let Err(error) = written {
             self.trouble(&format!("{}: {error}", path.display()));
         }
@@ -128,7 +132,7 @@ impl Cache {
     /// Says what is wrong, but not more than one thing.
     fn trouble(&self, what: &str) {
         if !self.troubled.replace(true) {
-            self.progress.note(&format!("the cache of plans is not used: {what}"));
+            self.progress.note(&format!("the cache is not used: {what}"));
         }
     }
 }
@@ -139,6 +143,16 @@ fn users() -> Result<PathBuf, HomeDirError> {
     match said.filter(|path| path.is_absolute()) {
         Some(path) => Ok(path),
         None => Ok(etcetera::choose_base_strategy()?.cache_dir()),
+    }
+}
+
+/// What a file holds; none if there is no such file.
+fn read(path: &Path) -> io::Result<Option<String>> {
+    let mut text = String::new();
+    match File::open(path).and_then(|file| file.take(MOST).read_to_string(&mut text)) {
+        Ok(_) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
     }
 }
 
@@ -170,7 +184,7 @@ mod tests {
     use super::*;
     use crate::args::{ProgressMode, Talk};
 
-    fn cache(folder: PathBuf) -> Cache {
+    pub(super) fn cache(folder: PathBuf) -> Cache {
         let talk = Talk { quiet: true, verbose: false, progress: ProgressMode::None };
         let progress = Progress::new(&talk);
         Cache { folder: Some(folder), progress, troubled: Cell::new(false) }

@@ -18,6 +18,7 @@ use nestray::render::watch::Watch;
 use nestray::scene::picture::Picture;
 
 use crate::args::{DemoArgs, Talk, Weights};
+use crate::cache::Cache;
 use crate::errors::Failure;
 use crate::input;
 use crate::optimize::{self, report};
@@ -65,7 +66,9 @@ pub(crate) fn run(_args: &DemoArgs, talk: &Talk) -> Result<(), Failure> {
         rounds: 3,
         ..search::Options::default()
     };
-    let found = stats.stage("optimize", || optimize::search(&scene, &log, &options, progress))?;
+    let prices = Cache::open(true, progress).prices();
+    let search = || optimize::search(&scene, &log, &prices, &options, progress);
+    let found = stats.stage("optimize", search)?;
     stop::check()?;
     let failure = |error| input::plan_failure(&error, None);
     let world = stats.stage("build", || build(&found.plan, &scene)).map_err(failure)?;

@@ -14,6 +14,7 @@ use nestray::io::load::{LoadOptions, bytes_of};
 use nestray::io::native;
 
 use crate::args::{InspectArgs, Talk};
+use crate::cache::Cache;
 use crate::errors::Failure;
 use crate::progress::Progress;
 use crate::{input, output};
@@ -30,7 +31,9 @@ pub(crate) fn run(args: &InspectArgs, talk: &Talk) -> Result<(), Failure> {
             let progress = Progress::new(talk);
             let scene = input::scene(name, &LoadOptions::default(), &progress)?;
             match &args.explain {
-                Some(path) => explain::report(&scene, &choice, path)?,
+                Some(path) => {
+                    explain::report(&scene, &choice, path, &Cache::open(true, progress).prices())?
+                }
                 None => scene::report(&scene, &choice, args)?,
             }
         }

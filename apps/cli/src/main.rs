@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod cache;
+mod calibrate;
 mod convert;
 mod demo;
 mod errors;
@@ -47,5 +48,6 @@ fn run(args: &args::Args) -> Result<(), Failure> {
         Verb::Inspect(inspect) => inspect::run(inspect, talk),
         Verb::Bench(bench) => bench::run(bench, talk),
         Verb::Optimize(optimize) => optimize::run(optimize, talk),
+        Verb::Calibrate(calibrate) => calibrate::run(calibrate, talk),
     }
 }

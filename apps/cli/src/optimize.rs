@@ -4,13 +4,17 @@ mod html;
 pub(crate) mod nest;
 pub(crate) mod report;
 
-use nestray::core::cost::CostModel;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
 use nestray::io::load::LoadOptions;
 use nestray::plan::build::build;
 use nestray::plan::check::check;
 use nestray::plan::error::PlanError;
 use nestray::plan::optimize::ray_log::{RayLog, RaySet};
 use nestray::plan::optimize::{Observer, Optimized, Options, optimize};
+use nestray::plan::prices::Prices;
 use nestray::plan::single::{AUTO, single};
 use nestray::prelude::{DynObject, Scene};
 use nestray::render::watch::Watch as _;
@@ -19,6 +23,7 @@ use nestray::scene::camera::Camera;
 use self::nest::Nest;
 use crate::args::{Budget, OptimizeArgs, Talk, Weights};
 use crate::bench::rays;
+use crate::cache::Cache;
 use crate::errors::Failure;
 use crate::progress::{Progress, Watching};
 use crate::{input, output, stop};
@@ -54,10 +59,11 @@ pub(crate) fn run(args: &OptimizeArgs, talk: &Talk) -> Result<(), Failure> {
         max_memory: args.max_memory.unwrap_or(u64::MAX),
         rounds: args.rounds,
     };
-    let found = search(&scene, &log, &options, progress)?;
+    let prices = prices(args.prices.as_deref(), progress)?;
+    let found = search(&scene, &log, &prices, &options, progress)?;
     output::write(&args.output, found.plan.to_json().as_bytes())?;
     if !args.report.is_empty() {
-        let nest = Nest::new(&scene, &found, &log)?;
+        let nest = Nest::new(&scene, &found, &log, &prices)?;
         for path in &args.report {
             let is_page =
                 path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("html"));
@@ -74,15 +80,35 @@ pub(crate) fn run(args: &OptimizeArgs, talk: &Talk) -> Result<(), Failure> {
     if stop::asked() { Err(stop::interrupted("the best so far was written")) } else { Ok(()) }
 }
 
+/// Most bytes of a file of prices.
+const MOST: u64 = 1 << 20;
+
+/// The prices of a file, the usual ones, or those of this machine.
+fn prices(from: Option<&Path>, progress: Progress) -> Result<Prices, Failure> {
+    let Some(path) = from else { return Ok(Cache::open(true, progress).prices()) };
+    if path.as_os_str() == "usual" {
+        return Ok(Prices::usual().clone());
+    }
+    let wrong = |error: &dyn std::fmt::Display| {
+        Failure::new(Failure::UNREADABLE, format!("{}: {error}", path.display()))
+    };
+    let mut text = String::new();
+    let file = File::open(path).map_err(|error| wrong(&error))?;
+    file.take(MOST).read_to_string(&mut text).map_err(|error| wrong(&error))?;
+    let prices: Prices = serde_json::from_str(&text).map_err(|error| wrong(&error))?;
+    if prices.are_sound() { Ok(prices) } else { Err(wrong(&"prices are numbers from 0 on")) }
+}
+
 /// Searches, and shows how far it is.
 pub(crate) fn search(
     scene: &Scene,
     log: &RayLog,
+    prices: &Prices,
     options: &Options,
     progress: Progress,
 ) -> Result<Optimized, Failure> {
     let screen = Screen { watching: progress.watch("optimize"), options };
-    optimize(scene, log, CostModel::usual(), options, &screen).map_err(|error| match error {
+    optimize(scene, log, prices, options, &screen).map_err(|error| match error {
         PlanError::At { problem, path } if path == "pins" => {
             Failure::usage(format!("--pin: {problem}"))
         }

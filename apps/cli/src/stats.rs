@@ -97,6 +97,14 @@ pub(crate) fn level() -> String {
     name.split('(').next().unwrap_or_default().to_lowercase()
 }
 
+/// What the system calls the processor, or at least its kind.
+pub(crate) fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = info.lines().find(|line| line.starts_with("model name"));
+    let name = line.and_then(|line| line.split(':').nth(1)).unwrap_or(std::env::consts::ARCH);
+    name.trim().to_owned()
+}
+
 /// Most memory in use at any time, if the system says so.
 pub(crate) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;

@@ -46,6 +46,11 @@ impl Cost {
 /// Prices, in nanoseconds, and what rays are asked about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostModel {
+    /// What a ray costs whatever it meets.
+    pub ray: f64,
+    /// What each step and each test costs more every time that a structure doubles beyond
+    /// [`NEAR`](Self::NEAR).
+    pub far: f64,
     /// Entering an aggregate.
     pub call: f64,
     /// Moving a ray into an instance.
@@ -59,6 +64,21 @@ pub struct CostModel {
 }
 
 impl CostModel {
+    /// Bytes that are near the processor however they are used.
+    pub const NEAR: u64 = 1 << 18;
+
+    /// What each step and each test costs more in a structure of so many bytes.
+    #[must_use]
+    pub fn distance(&self, bytes: u64) -> f64 {
+        self.far * Self::doublings(bytes)
+    }
+
+    /// How often memory doubles from [`NEAR`](Self::NEAR) to so many bytes.
+    #[must_use]
+    pub fn doublings(bytes: u64) -> f64 {
+        (bytes.max(Self::NEAR) as f64 / Self::NEAR as f64).log2()
+    }
+
     /// The default prices, made once: builders ask for the weight of every child.
     #[must_use]
     pub fn usual() -> &'static Self {
@@ -87,6 +107,8 @@ impl Default for CostModel {
             prices.iter().map(|&(name, nanos)| (name.to_owned(), nanos)).collect()
         };
         Self {
+            ray: 0.0,
+            far: 0.0,
             call: 15.0,
             transform: 20.0,
             primitive: named(&[

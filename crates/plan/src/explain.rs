@@ -1,6 +1,5 @@
 //! Why a technique stands where it does: what a plan would cost with any other in its place.
 
-use nestray_core::cost::CostModel;
 use nestray_registry as registry;
 use nestray_scene::scene::Scene;
 use rayon::prelude::*;
@@ -11,6 +10,7 @@ use crate::error::{PlanError, Problem};
 use crate::optimize::ray_log::RayLog;
 use crate::optimize::score::{Score, Scorer};
 use crate::plan::{Nest, Node, Plan};
+use crate::prices::Prices;
 
 /// A technique in the place of another.
 #[derive(Clone, Debug)]
@@ -55,7 +55,7 @@ pub fn alternatives(
     path: &str,
     scene: &Scene,
     log: &RayLog,
-    prices: &CostModel,
+    prices: &Prices,
 ) -> Result<Vec<Alternative>, PlanError> {
     let chosen = registry::find(&nest(plan, path)?.technique).map(|entry| entry.name);
     check(plan, scene)?;
@@ -110,11 +110,11 @@ mod tests {
         plan.root = Node::nest("list", vec![plan.root]);
         let log = log(&scene);
         let path = "root/nest/children/0";
-        let all = alternatives(&plan, path, &scene, &log, CostModel::usual()).expect("it is there");
+        let all = alternatives(&plan, path, &scene, &log, Prices::usual()).expect("it is there");
         assert_eq!(all.len(), registry::names().count());
         let chosen: Vec<_> = all.iter().filter(|one| one.is_chosen).collect();
         assert_eq!(chosen.len(), 1);
-        let scorer = Scorer::new(&scene, &log, CostModel::usual(), u64::MAX);
+        let scorer = Scorer::new(&scene, &log, Prices::usual(), u64::MAX);
         assert_eq!(chosen[0].score, scorer.score(&plan));
         let mixes: Vec<f64> =
             all.iter().filter_map(|one| Some(one.score.as_ref().ok()?.mix(&log))).collect();

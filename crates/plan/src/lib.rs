@@ -23,6 +23,10 @@ pub mod single;
 
 pub mod describe;
 
+pub mod prices;
+
 pub mod optimize;
+
+pub mod calibrate;
 
 pub mod explain;

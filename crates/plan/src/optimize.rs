@@ -15,13 +15,12 @@ pub mod score;
 pub mod start;
 
 mod archive;
-mod clock;
-mod effort;
+pub(crate) mod clock;
+pub(crate) mod effort;
 mod pins;
 
 use std::time::Duration;
 
-use nestray_core::cost::CostModel;
 use nestray_scene::scene::Scene;
 
 use self::anneal::Tempering;
@@ -34,6 +33,7 @@ use self::score::{Score, Scorer};
 use crate::error::PlanError;
 use crate::fingerprint::fingerprint;
 use crate::plan::Plan;
+use crate::prices::Prices;
 
 /// What may be spent, and on what.
 #[derive(Clone, Debug)]
@@ -126,7 +126,7 @@ pub trait Observer: Sync {
 pub fn optimize(
     scene: &Scene,
     log: &RayLog,
-    prices: &CostModel,
+    prices: &Prices,
     options: &Options,
     observer: &dyn Observer,
 ) -> Result<Optimized, PlanError> {
@@ -137,7 +137,7 @@ pub fn optimize(
 fn optimize_by(
     scene: &Scene,
     log: &RayLog,
-    prices: &CostModel,
+    prices: &Prices,
     limits: &Limits<'_>,
 ) -> Result<Optimized, PlanError> {
     let options = limits.options;

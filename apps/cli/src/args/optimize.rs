@@ -51,6 +51,10 @@ pub(crate) struct OptimizeArgs {
     /// Most memory of the nest, in bytes, or as in 500M or 4G.
     #[arg(long, value_name = "BYTES", value_parser = memory)]
     pub(crate) max_memory: Option<u64>,
+    /// Prices of steps and tests, as `nestray calibrate -o` writes them, or `usual`: those that come
+    /// with the program. [default: those of the cache, or the usual]
+    #[arg(long, value_name = "FILE")]
+    pub(crate) prices: Option<PathBuf>,
     /// Another number searches other ways.
     #[arg(long, default_value_t = 0)]
     pub(crate) seed: u64,
@@ -103,6 +107,11 @@ pub(crate) struct Weights(Vec<(String, f64)>);
 const KINDS: &[&str] = &["camera", "shadow", "reflect", "diffuse", "chords"];
 
 impl Weights {
+    /// All kinds, one as often as the other.
+    pub(crate) fn all() -> Self {
+        Self(KINDS.iter().map(|&kind| (kind.to_owned(), 1.0)).collect())
+    }
+
     /// Of rays of a kind; 0 if none was said.
     pub(crate) fn of(&self, kind: &str) -> f64 {
         self.0.iter().find(|(name, _)| name == kind).map_or(0.0, |&(_, weight)| weight)

@@ -14,7 +14,7 @@ const TURN: Duration = Duration::from_millis(500);
 /// Rays of the first try.
 const FIRST: usize = 64;
 /// Neighbours that stay together when there is no time for all rays.
-const BLOCK: usize = 16;
+const BLOCK: usize = nestray::core::packet::RAYS;
 /// Rays that are counted.
 const COUNTED: usize = 2048;
 

@@ -44,18 +44,28 @@ pub(crate) fn sets_from(
     Ok(sets)
 }
 
-/// Through the middles of the pixels of a square picture, line by line.
+/// Through the middles of the pixels of a square picture, in the order that pictures are rendered
+/// in: first neighbours in twos, then in fours of those, and so on.
 fn camera(eye: Option<&Camera>, count: usize) -> Vec<Ray> {
     let Some(camera) = eye else { return Vec::new() };
     let (side, view) = (count.isqrt().max(1) as u32, camera.view(1.0));
-    let through = |i: u32| view.through([i % side, i / side], [side; 2]);
-    (0..side * side)
+    let mut pixels: Vec<[u32; 2]> = (0..side * side).map(|i| [i % side, i / side]).collect();
+    pixels.sort_by_cached_key(|&[x, y]| spread_bits(x) | spread_bits(y) << 1);
+    let through = |pixel: [u32; 2]| view.through(pixel, [side; 2]);
+    pixels
+        .into_iter()
         .map(through)
         .map(|(origin, dir)| Ray::new(origin, dir, RayKind::Camera))
         .collect()
 }
 
-/// From what rays hit: to lights, mirrored, and scattered.
+/// The bits of a number, each with room for another behind it.
+fn spread_bits(x: u32) -> u64 {
+    (0..32).map(|bit| u64::from(x >> bit & 1) << (2 * bit)).sum()
+}
+
+/// From what rays hit: to lights, one light after the other as renderers do, mirrored, and
+/// scattered.
 fn bounces(
     scene: &Scene,
     lights: &[Light],
@@ -63,7 +73,8 @@ fn bounces(
     rays: &[Ray],
 ) -> Result<[RaySet; 3], Failure> {
     let surfaces = Surfaces::new(scene).map_err(|e| Failure::new(Failure::UNREADABLE, e))?;
-    let (mut shadow, mut mirrored, mut diffuse) = (Vec::new(), Vec::new(), Vec::new());
+    let mut shadow = vec![Vec::new(); lights.len()];
+    let (mut mirrored, mut diffuse) = (Vec::new(), Vec::new());
     for (i, (ray, hit)) in rays.iter().zip(&closest_hits(world, rays)).enumerate() {
         if !hit.is_some() {
             continue;
@@ -71,14 +82,16 @@ fn bounces(
         let at = surfaces.at(ray, hit).surface;
         let normal = if at.normal.dot(ray.dir()) > 0.0 { -at.normal } else { at.normal };
         let to = |dir: Vec3A, kind: RayKind| Ray::new(at.leave(dir), dir, kind);
-        shadow.extend((0..).zip(lights).map(|(number, light)| to_light(&at, number, light)));
+        for ((number, light), shadow) in (0..).zip(lights).zip(&mut shadow) {
+            shadow.push(to_light(&at, number, light));
+        }
         let dir = ray.dir().normalize();
         mirrored.push(to(dir - normal * (2.0 * dir.dot(normal)), RayKind::Reflect));
         // A point on the sphere that touches the surface: scattered by Lambert's law.
         diffuse.push(to(normal * 1.0001 + on_sphere(i), RayKind::Diffuse));
     }
     Ok([
-        RaySet { name: "shadow", rays: shadow, any: true },
+        RaySet { name: "shadow", rays: shadow.concat(), any: true },
         RaySet { name: "reflect", rays: mirrored, any: false },
         RaySet { name: "diffuse", rays: diffuse, any: false },
     ])

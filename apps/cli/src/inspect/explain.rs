@@ -3,13 +3,13 @@
 
 use std::fmt::Write as _;
 
-use nestray::core::cost::CostModel;
 use nestray::plan::build::build;
 use nestray::plan::describe::{Part, describe};
 use nestray::plan::error::{PlanError, Problem};
 use nestray::plan::explain::{Alternative, alternatives, nest};
 use nestray::plan::optimize::ray_log::RayLog;
 use nestray::plan::plan::{Node, Plan};
+use nestray::plan::prices::Prices;
 use nestray::prelude::Scene;
 use serde_json::{Value, json};
 
@@ -24,7 +24,12 @@ const RAYS: usize = 4096;
 /// Most parts that are shown of those that a node may have become.
 const PARTS: usize = 4;
 
-pub(super) fn report(scene: &Scene, choice: &Choice, path: &str) -> Result<Report, Failure> {
+pub(super) fn report(
+    scene: &Scene,
+    choice: &Choice,
+    path: &str,
+    prices: &Prices,
+) -> Result<Report, Failure> {
     scene.check().map_err(|error| Failure::new(Failure::UNREADABLE, error))?;
     let scene = &scene.frame(0.0, 0.0);
     let plan = choice.plan(scene)?;
@@ -34,9 +39,9 @@ pub(super) fn report(scene: &Scene, choice: &Choice, path: &str) -> Result<Repor
     if log.sets.is_empty() {
         return Err(Failure::usage("--explain: no camera sees anything to price it by"));
     }
-    let prices = CostModel::usual();
     let all =
         alternatives(&plan, path, scene, &log, prices).map_err(|error| choice.failure(&error))?;
+    let prices = &prices.scattered;
     let sent = pilot::send(scene, &world)?;
     let part = describe(&world, prices).counted(&sent);
     let of = |rays: &str| weight(rays, &sent, &log);

@@ -1,10 +1,10 @@
 //! The nest that was chosen, built again and looked into: what rays of the log do in each part.
 
-use nestray::core::cost::CostModel;
 use nestray::plan::build::build;
 use nestray::plan::describe::{Part, Sent, Spent, describe};
 use nestray::plan::optimize::Optimized;
 use nestray::plan::optimize::ray_log::RayLog;
+use nestray::plan::prices::Prices;
 use nestray::prelude::Scene;
 
 use crate::errors::Failure;
@@ -18,11 +18,16 @@ pub(super) struct Nest {
 }
 
 impl Nest {
-    pub(super) fn new(scene: &Scene, found: &Optimized, log: &RayLog) -> Result<Self, Failure> {
+    pub(super) fn new(
+        scene: &Scene,
+        found: &Optimized,
+        log: &RayLog,
+        prices: &Prices,
+    ) -> Result<Self, Failure> {
         let failure = |error| input::plan_failure(&error, None);
         let world = build(&found.plan, scene).map_err(failure)?;
         let sent = pilot::send(scene, &world)?;
-        let prices = CostModel::usual();
+        let prices = &prices.scattered;
         let part = describe(&world, prices).counted(&sent);
         let spent = part.spent(prices, &|rays| weight(rays, &sent, log));
         Ok(Self { part, spent })

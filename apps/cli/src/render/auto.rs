@@ -231,8 +231,9 @@ impl Auto<'_> {
             rounds: 3,
             ..Search::default()
         };
+        let prices = self.cache.prices();
         let deadline = Deadline::new(budget, self.progress.watch("plan auto"));
-        let search = || optimize(self.scene, &log, CostModel::usual(), &options, &deadline);
+        let search = || optimize(self.scene, &log, &prices, &options, &deadline);
         let found = input::pool(self.options.threads)?.install(search).map_err(failure)?;
         Ok(Some(found.plan))
     }

@@ -96,3 +96,24 @@ fn what_cannot_be_searched_is_refused_by_name() {
     nestray(&["optimize", "nowhere.obj", "-o", "never.json"]).fails(3, &["nowhere.obj"]);
     assert!(!std::path::Path::new("never.json").exists());
 }
+
+#[test]
+fn prices_come_from_a_file_or_with_the_program() {
+    let folder = Folder::new();
+    let usual = include_str!("../../../../crates/plan/src/prices/usual.json");
+    let file = folder.write("prices.json", usual);
+    let [mine, theirs] = ["mine.plan.json", "theirs.plan.json"].map(|name| folder.path(name));
+    nestray(&[SEARCH, &["-o", &mine, "--prices", &file]].concat()).succeeds();
+    nestray(&[SEARCH, &["-o", &theirs, "--prices", "usual"]].concat()).succeeds();
+    let cut = folder.write("cut.json", &usual[..usual.len() / 2]);
+    let negative = folder.write("negative.json", &usual.replacen("\"far\": ", "\"far\": -", 1));
+    for (path, why) in [
+        (folder.path("missing.json"), "missing.json"),
+        (cut, "line"),
+        (negative, "numbers from 0 on"),
+    ] {
+        let plan = folder.path("never.plan.json");
+        nestray(&[SEARCH, &["-o", &plan, "--prices", &path]].concat()).fails(3, &[why]);
+        assert!(!folder.names().contains(&"never.plan.json".to_owned()));
+    }
+}

@@ -4,7 +4,7 @@ use nestray_core::cost::CostModel;
 use serde::Serialize;
 
 use super::Part;
-use crate::optimize::score::test_price;
+use crate::prices::test;
 
 /// A part of a nest, and the nanoseconds that a ray of a mix spends in it, by rough prices.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,7 +55,7 @@ impl Part {
         if count == 0 {
             return prices.primitive("triangle");
         }
-        let price = |child: &Self| child.count as f64 * test_price(prices, child.kind);
+        let price = |child: &Self| child.count as f64 * test(prices, child.kind);
         self.children.iter().map(price).sum::<f64>() / count as f64
     }
 }

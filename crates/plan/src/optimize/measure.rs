@@ -1,6 +1,6 @@
 //! Timing the plans that a search ends with: what is fastest then is taken.
 
-mod shots;
+pub(crate) mod shots;
 
 use nestray_core::cost::CostModel;
 use nestray_core::object::{DynObject, Object as _};

@@ -1,6 +1,7 @@
 //! The rays that a plan is to be fast for.
 
 use nestray_core::by_kind::Case;
+use nestray_core::packet::{self, Packet};
 use nestray_core::ray::{Ray, RayKind};
 
 /// Rays of one kind.
@@ -24,7 +25,7 @@ pub struct RayLog {
 }
 
 /// Neighbours that stay together.
-const BLOCK: usize = 16;
+const BLOCK: usize = packet::RAYS;
 
 impl RaySet {
     /// For which rays a world may have a structure of its own, if these are all alike.
@@ -38,6 +39,22 @@ impl RaySet {
             RayKind::Diffuse => Some(Case::Diffuse),
             RayKind::Custom(number) => Some(Case::Custom(Some(number))),
         }
+    }
+
+    /// Whether most of the rays go the same way as those next to them, so that they may be led
+    /// together.
+    #[must_use]
+    pub fn are_neighbours(&self) -> bool {
+        let blocks = self.rays.chunks(BLOCK);
+        let together = self.rays.chunks(BLOCK).filter(|rays| Packet::may_be(rays)).count();
+        2 * together > blocks.len()
+    }
+
+    /// About `most` of the rays, in blocks of neighbours spread evenly.
+    #[must_use]
+    pub fn thinned(&self, most: usize) -> Self {
+        let step = self.rays.len().div_ceil(most.max(1)).max(1);
+        self.with(self.rays.chunks(BLOCK).step_by(step).flatten().copied().collect())
     }
 
     fn with(&self, rays: Vec<Ray>) -> Self {
@@ -79,10 +96,6 @@ impl RayLog {
     /// About `most` rays of each set, in blocks of neighbours spread evenly.
     #[must_use]
     pub fn thinned(&self, most: usize) -> Self {
-        let sets = self.sets.iter().map(|set| {
-            let step = set.rays.len().div_ceil(most.max(1)).max(1);
-            set.with(set.rays.chunks(BLOCK).step_by(step).flatten().copied().collect())
-        });
-        Self { sets: sets.collect() }
+        Self { sets: self.sets.iter().map(|set| set.thinned(most)).collect() }
     }
 }

@@ -5,13 +5,13 @@ use nestray_core::counters::Tally;
 use nestray_core::hit::Hit;
 use nestray_core::object::{DynObject, Object as _};
 use nestray_core::scratch::Scratch;
-use nestray_registry as registry;
 use nestray_scene::scene::Scene;
 
 use super::ray_log::{RayLog, RaySet};
 use crate::build::build;
 use crate::error::PlanError;
 use crate::plan::Plan;
+use crate::prices::{self, Prices};
 
 /// What the rays of each set cost in a plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Score {
 pub struct Scorer<'a> {
     scene: &'a Scene,
     log: RayLog,
-    prices: &'a CostModel,
+    prices: &'a Prices,
     max_memory: u64,
 }
 
@@ -49,7 +49,7 @@ const HOPELESS: f64 = 50_000.0;
 impl<'a> Scorer<'a> {
     /// For the rays of a log; plans that take more than `max_memory` bytes cost infinitely much.
     #[must_use]
-    pub fn new(scene: &'a Scene, log: &RayLog, prices: &'a CostModel, max_memory: u64) -> Self {
+    pub fn new(scene: &'a Scene, log: &RayLog, prices: &'a Prices, max_memory: u64) -> Self {
         Self { scene, log: log.thinned(COUNTED), prices, max_memory }
     }
 
@@ -59,18 +59,22 @@ impl<'a> Scorer<'a> {
     /// If it cannot be built.
     pub fn score(&self, plan: &Plan) -> Result<Score, PlanError> {
         let world = build(plan, self.scene)?;
-        let mut nanos: Vec<f64> =
-            self.log.sets.iter().map(|set| self.priced(&world, set)).collect();
-        let bytes = world.cost(self.prices).bytes;
+        let done: Vec<Done<'_>> = self.log.sets.iter().map(|set| self.send(&world, set)).collect();
+        // What is built when rays come is there now.
+        let bytes = world.cost(CostModel::usual()).bytes;
         if bytes > self.max_memory {
-            nanos.fill(f64::INFINITY);
+            return Ok(Score { nanos: vec![f64::INFINITY; done.len()], bytes });
         }
-        Ok(Score { nanos, bytes })
+        let per_ray = |Done { model, tally, rays }: &Done<'_>| {
+            prices::nanos(model, tally, *rays, bytes) / (*rays).max(1) as f64
+        };
+        Ok(Score { nanos: done.iter().map(per_ray).collect(), bytes })
     }
 
-    /// Nanoseconds per ray.
-    fn priced(&self, world: &DynObject, set: &RaySet) -> f64 {
+    /// Sends the rays of a set through a world, and counts what they do.
+    fn send(&self, world: &DynObject, set: &RaySet) -> Done<'_> {
         let mut scratch = Scratch::counting();
+        let model = self.prices.of(set);
         let mut done = 0;
         for rays in set.rays.chunks(FIRST) {
             for ray in rays {
@@ -81,31 +85,19 @@ impl<'a> Scorer<'a> {
                 }
             }
             done += rays.len();
-            if self.price(&scratch.counters.total()) > HOPELESS * done as f64 {
+            let nanos = prices::nanos(model, &scratch.counters.total(), done, 0);
+            if nanos > HOPELESS * done as f64 {
                 break;
             }
         }
-        self.price(&scratch.counters.total()) / done.max(1) as f64
-    }
-
-    /// Nanoseconds that what was counted takes.
-    fn price(&self, tally: &Tally) -> f64 {
-        let steps: f64 =
-            tally.steps.iter().map(|(name, &count)| self.prices.step(name) * count as f64).sum();
-        let tests: f64 = tally
-            .tests
-            .iter()
-            .map(|(kind, &count)| test_price(self.prices, kind) * count as f64)
-            .sum();
-        steps + tests
+        Done { model, tally: scratch.counters.total(), rays: done }
     }
 }
 
-/// What testing one child takes, without what it does itself.
-pub(crate) fn test_price(prices: &CostModel, kind: &str) -> f64 {
-    match kind {
-        "instance" => prices.transform,
-        _ if registry::find(kind).is_some() => prices.call,
-        _ => prices.primitive(kind),
-    }
+/// What some rays did.
+struct Done<'a> {
+    /// Their prices.
+    model: &'a CostModel,
+    tally: Tally,
+    rays: usize,
 }

@@ -46,7 +46,7 @@ fn options(evaluations: usize) -> Options {
 }
 
 fn found(scene: &Scene, options: &Options) -> Optimized {
-    optimize(scene, &log(scene, 400), CostModel::usual(), options, &Nobody).expect("it is sound")
+    optimize(scene, &log(scene, 400), Prices::usual(), options, &Nobody).expect("it is sound")
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn what_is_found_is_no_dearer_than_any_technique_alone() {
     }
     let expected = |plan: &Plan| {
         let log = log(&scene, 400).halves().0;
-        let scorer = Scorer::new(&scene, &log, CostModel::usual(), u64::MAX);
+        let scorer = Scorer::new(&scene, &log, Prices::usual(), u64::MAX);
         scorer.score(plan).expect("it is sound").mix(&log)
     };
     let auto = single(AUTO, Default::default(), &scene).expect("it is sound");
@@ -151,7 +151,7 @@ fn scenes_of_nothing_and_next_to_nothing_are_no_trouble() {
     let mut scene = Scene::new();
     let rays = log(&generate("balls", Some(1)).expect("there is one"), 64);
     for count in 0..3 {
-        let one = optimize(&scene, &rays, CostModel::usual(), &options(30), &Nobody);
+        let one = optimize(&scene, &rays, Prices::usual(), &options(30), &Nobody);
         let one = one.unwrap_or_else(|error| panic!("{count} objects: {error}"));
         assert!(check(&one.plan, &scene).is_ok());
         let center = Vec3A::new(count as f32, 0.0, 0.0);
@@ -166,7 +166,7 @@ fn an_unknown_technique_is_refused_by_name() {
     let scene = generate("balls", Some(1)).expect("there is one");
     let options = Options { techniques: vec!["gird".into()], ..options(5) };
     let log = log(&scene, 64);
-    let error = optimize(&scene, &log, CostModel::usual(), &options, &Nobody).expect_err("no gird");
+    let error = optimize(&scene, &log, Prices::usual(), &options, &Nobody).expect_err("no gird");
     assert!(error.to_string().contains("gird"), "{error}");
 }
 
@@ -199,7 +199,7 @@ fn a_given_plan_is_tried_with_the_others_and_must_fit() {
     let search = |start: Plan, pin: Option<&str>| {
         let pins = pin.into_iter().map(str::to_owned).collect();
         let options = Options { start: Some(start), pins, ..options(5) };
-        optimize(&scene, &log(&scene, 64), CostModel::usual(), &options, &Nobody)
+        optimize(&scene, &log(&scene, 64), Prices::usual(), &options, &Nobody)
     };
     assert!(search(start, None).is_err(), "it holds nothing");
     let grid = single("grid", Default::default(), &scene).expect("it is sound");
@@ -234,7 +234,7 @@ fn nothing_is_begun_that_may_take_longer_than_there_is_time() {
         let options = Options { time, techniques, rounds: 1, ..Options::default() };
         let clock = Slow::default();
         let limits = Limits::new(&clock, &options, &Nobody);
-        let found = optimize_by(&scene, &log(&scene, 64), CostModel::usual(), &limits);
+        let found = optimize_by(&scene, &log(&scene, 64), Prices::usual(), &limits);
         found.expect("it is sound").candidates
     };
     let uses = |tried: &[Candidate], technique: &str| {

@@ -7,24 +7,24 @@ use nestray_core::scratch::Scratch;
 use crate::optimize::clock::Clock;
 use crate::optimize::ray_log::{RayLog, RaySet};
 
-pub(super) fn per_ray(seconds: f64, set: &RaySet) -> f64 {
+pub(crate) fn per_ray(seconds: f64, set: &RaySet) -> f64 {
     seconds * 1e9 / set.rays.len().max(1) as f64
 }
 
-pub(super) fn mixed(nanos: &[f64], log: &RayLog) -> f64 {
+pub(crate) fn mixed(nanos: &[f64], log: &RayLog) -> f64 {
     nanos.iter().zip(&log.sets).map(|(nanos, set)| nanos * set.weight).sum()
 }
 
 /// Seconds.
-pub(super) struct Took {
+pub(crate) struct Took {
     /// On the clock on the wall.
-    pub(super) passed: f64,
+    pub(crate) passed: f64,
     /// That this thread worked.
-    pub(super) worked: f64,
+    pub(crate) worked: f64,
 }
 
 /// What the rays of a set take, in batches.
-pub(super) fn shoot(world: &DynObject, set: &RaySet, clock: &dyn Clock) -> Took {
+pub(crate) fn shoot(world: &DynObject, set: &RaySet, clock: &dyn Clock) -> Took {
     /// Rays in a batch.
     const BATCH: usize = 4096;
     let mut scratch = Scratch::new();
@@ -45,7 +45,7 @@ pub(super) fn shoot(world: &DynObject, set: &RaySet, clock: &dyn Clock) -> Took 
     Took { passed: clock.seconds() - begun[0], worked: clock.worked() - begun[1] }
 }
 
-pub(super) fn median(times: &[f64]) -> f64 {
+pub(crate) fn median(times: &[f64]) -> f64 {
     let mut times = times.to_vec();
     times.sort_by(f64::total_cmp);
     times.get(times.len() / 2).copied().unwrap_or(f64::INFINITY)

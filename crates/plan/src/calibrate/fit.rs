@@ -1,0 +1,218 @@
+//! The prices that explain times best: non-negative least squares.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nestray_core::cost::CostModel;
+use nestray_registry as registry;
+
+use super::runs::Run;
+use crate::prices::{self, Prices};
+
+/// What something is the price of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Item {
+    Ray,
+    Far,
+    Call,
+    Transform,
+    Primitive(&'static str),
+    Step(&'static str),
+}
+
+/// How much the usual prices weigh against one run: enough where nothing else is known.
+const PRIOR: f64 = 0.02;
+/// How often all prices are looked at anew, at most, and the change that ends it.
+const SWEEPS: usize = 10_000;
+const STILL: f64 = 1e-9;
+
+/// Prices of rays with and without neighbours.
+pub(super) fn prices(runs: &[Run]) -> Prices {
+    let usual = Prices::usual();
+    let of = |neighbours: bool, usual: &CostModel| {
+        let runs: Vec<&Run> = runs.iter().filter(|run| run.neighbours == neighbours).collect();
+        fitted(&runs, usual)
+    };
+    Prices { neighbours: of(true, &usual.neighbours), scattered: of(false, &usual.scattered) }
+}
+
+/// The median over all runs of how far off they are by prices found without their scenes.
+pub(super) fn error(runs: &[Run]) -> f64 {
+    let scenes: BTreeSet<&str> = runs.iter().map(|run| run.scene.as_str()).collect();
+    let mut errors = Vec::new();
+    for scene in scenes {
+        let (left, others): (Vec<Run>, Vec<Run>) =
+            runs.iter().cloned().partition(|run| run.scene == scene);
+        let prices = prices(&others);
+        errors.extend(left.iter().map(|run| (predicted(run, &prices) / run.nanos - 1.0).abs()));
+    }
+    errors.sort_by(f64::total_cmp);
+    errors.get(errors.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Nanoseconds that a ray of a run takes by some prices.
+pub(super) fn predicted(run: &Run, prices: &Prices) -> f64 {
+    let model = if run.neighbours { &prices.neighbours } else { &prices.scattered };
+    prices::nanos(model, &run.tally, run.rays, run.bytes) / run.rays.max(1) as f64
+}
+
+/// Prices by which all runs are predicted as well as can be, each counting by how far off it is as a
+/// part of its time.
+fn fitted(runs: &[&Run], usual: &CostModel) -> CostModel {
+    let rows: Vec<BTreeMap<Item, f64>> = runs.iter().map(|run| row(run)).collect();
+    let items: BTreeSet<Item> = rows.iter().flat_map(|row| row.keys().copied()).collect();
+    let items: Vec<Item> = items.into_iter().collect();
+    // The normal equations, prices in units of the usual ones.
+    let units: Vec<f64> = items.iter().map(|item| item.of(usual).max(1.0)).collect();
+    let count = items.len();
+    let (mut matrix, mut right) = (vec![vec![0.0; count]; count], vec![0.0; count]);
+    for row in &rows {
+        let values: Vec<f64> = items
+            .iter()
+            .zip(&units)
+            .map(|(item, unit)| row.get(item).copied().unwrap_or(0.0) * unit)
+            .collect();
+        for (i, a) in values.iter().enumerate() {
+            right[i] += a;
+            for (sum, b) in matrix[i].iter_mut().zip(&values) {
+                *sum += a * b;
+            }
+        }
+    }
+    for (i, (row, item)) in matrix.iter_mut().zip(&items).enumerate() {
+        row[i] += PRIOR;
+        right[i] += PRIOR * item.of(usual) / units[i];
+    }
+    let mut model = usual.clone();
+    for ((item, unit), price) in items.iter().zip(&units).zip(non_negative(&matrix, &right)) {
+        item.set(&mut model, price * unit);
+    }
+    model
+}
+
+/// The non-negative solution of `matrix · x = right` that is best in the sense of least squares, one
+/// unknown after the other until none changes; the matrix is symmetric and positive definite.
+fn non_negative(matrix: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let mut x = vec![1.0; right.len()];
+    for _ in 0..SWEEPS {
+        let mut change = 0.0f64;
+        for (i, row) in matrix.iter().enumerate() {
+            let dot: f64 = row.iter().zip(&x).map(|(a, x)| a * x).sum();
+            let next = (x[i] + (right[i] - dot) / row[i]).max(0.0);
+            change = change.max((next - x[i]).abs());
+            x[i] = next;
+        }
+        if change < STILL {
+            break;
+        }
+    }
+    x
+}
+
+/// How much of each item a ray takes, over its time.
+fn row(run: &Run) -> BTreeMap<Item, f64> {
+    let per_ray = |count: f64| count / (run.rays.max(1) as f64 * run.nanos);
+    let work = run.tally.all_steps() + run.tally.all_tests();
+    let mut row = BTreeMap::new();
+    row.insert(Item::Ray, 1.0 / run.nanos);
+    row.insert(Item::Far, per_ray(work as f64) * CostModel::doublings(run.bytes));
+    for (name, &count) in &run.tally.steps {
+        *row.entry(Item::Step(name)).or_default() += per_ray(count as f64);
+    }
+    for (kind, &count) in &run.tally.tests {
+        *row.entry(Item::test(kind)).or_default() += per_ray(count as f64);
+    }
+    row
+}
+
+impl Item {
+    /// As [`prices::test`] has it.
+    fn test(kind: &'static str) -> Self {
+        match kind {
+            "instance" => Self::Transform,
+            _ if registry::find(kind).is_some() => Self::Call,
+            _ => Self::Primitive(kind),
+        }
+    }
+
+    /// Its price.
+    fn of(self, model: &CostModel) -> f64 {
+        match self {
+            Self::Ray => model.ray,
+            Self::Far => model.far,
+            Self::Call => model.call,
+            Self::Transform => model.transform,
+            Self::Primitive(kind) => model.primitive(kind),
+            Self::Step(technique) => model.step(technique),
+        }
+    }
+
+    /// Sets its price.
+    fn set(self, model: &mut CostModel, price: f64) {
+        match self {
+            Self::Ray => model.ray = price,
+            Self::Far => model.far = price,
+            Self::Call => model.call = price,
+            Self::Transform => model.transform = price,
+            Self::Primitive(kind) => drop(model.primitive.insert(kind.into(), price)),
+            Self::Step(technique) => drop(model.step.insert(technique.into(), price)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nestray_core::counters::Tally;
+
+    use super::*;
+
+    /// Runs of rays that do a little of everything, timed by prices that are known.
+    fn runs(truth: &CostModel) -> Vec<Run> {
+        let run = |i: u64| {
+            let part = |step: f64, most: f64| 1.0 + (i as f64 * step).fract() * most;
+            let mut tally = Tally::default();
+            for (name, step) in [("bvh", 0.37), ("grid", 0.61), ("list", 0.83)] {
+                tally.steps.insert(name, part(step, 9000.0) as u64);
+            }
+            for (kind, step) in [("triangle", 0.29), ("instance", 0.71), ("bvh", 0.53)] {
+                tally.tests.insert(kind, part(step, 9000.0) as u64);
+            }
+            let bytes = (part(0.19, 1000.0) * CostModel::NEAR as f64) as u64;
+            let nanos = prices::nanos(truth, &tally, 1000, bytes) / 1000.0;
+            let scene = format!("scene {}", i % 4);
+            Run { scene, neighbours: i.is_multiple_of(2), tally, rays: 1000, bytes, nanos }
+        };
+        (0..200).map(run).collect()
+    }
+
+    #[test]
+    fn prices_that_made_the_times_are_found_again() {
+        let mut truth = Prices::usual().scattered.clone();
+        (truth.ray, truth.far, truth.call, truth.transform) = (30.0, 1.5, 22.0, 41.0);
+        // One that nothing costs at all.
+        truth.step.insert("list".into(), 0.0);
+        truth.step.insert("bvh".into(), 7.0);
+        truth.primitive.insert("triangle".into(), 4.5);
+        let runs = runs(&truth);
+        let found = prices(&runs);
+        for model in [&found.neighbours, &found.scattered] {
+            for (price, truth) in [
+                (model.ray, 30.0),
+                (model.far, 1.5),
+                (model.call, 22.0),
+                (model.transform, 41.0),
+                (model.step("bvh"), 7.0),
+                (model.step("list"), 0.0),
+                (model.primitive("triangle"), 4.5),
+            ] {
+                assert!((price - truth).abs() < 0.05 * truth.max(1.0), "{price} {truth}");
+            }
+        }
+        assert!(error(&runs) < 0.02, "{}", error(&runs));
+    }
+
+    #[test]
+    fn what_was_never_seen_costs_what_is_usual() {
+        assert_eq!(prices(&[]), *Prices::usual());
+        assert_eq!(error(&[]), 0.0);
+    }
+}
