@@ -111,6 +111,8 @@ fn expected(nest: &dyn Object) -> [f64; 2] {
     let mut kinds = BTreeMap::from([("triangle".to_owned(), 1.0)]);
     nest.visit_children(&mut |child| _ = kinds.insert(child.kind().to_owned(), 1.0));
     let free = CostModel {
+        ray: 0.0,
+        far: 0.0,
         call: 0.0,
         transform: 0.0,
         primitive: BTreeMap::new(),

@@ -69,6 +69,16 @@ impl Patience {
     }
 }
 
+/// The rays of a packet, on their way.
+struct Group<'a, Probes> {
+    rays: &'a [Ray],
+    answers: Answers<'a>,
+    packet: &'a mut Packet,
+    probes: &'a mut Probes,
+    /// Who was shown what, where children may come again.
+    seen: Option<Stamp>,
+}
+
 impl<I: Index, C: Children> Accel<I, C> {
     /// Traces all `rays`, neighbours together; fills the hits, or whether something is hit if
     /// `ANY`.
@@ -150,37 +160,32 @@ impl<I: Index, C: Children> Accel<I, C> {
         simd: S,
         index: &I,
         rays: &[Ray],
-        (hits, blocked): Answers<'_>,
+        answers: Answers<'_>,
         (packet, probes, trail): (&mut Packet, &mut C::Probes, &mut Trail),
         scratch: &mut Scratch,
     ) -> bool {
         let Some(mut lead) = index.lead_in(simd, packet, trail) else { return false };
         lead.few = I::FEW;
         self.members.children.probe_all(simd, packet, rays, probes);
-        let mut seen = index.leads_again().then_some(Stamp::NONE);
+        let seen = index.leads_again().then_some(Stamp::NONE);
+        let mut group = Group { rays, answers, packet, probes, seen };
         let end = loop {
-            let these = (rays, &mut seen);
-            match index.lead_on(simd, packet, trail, &mut lead) {
+            match index.lead_on(simd, group.packet, trail, &mut lead) {
                 Led::Leaf(leaf, mask) => {
-                    let (leaf, answers) = ((leaf, mask), (&mut *hits, &mut *blocked));
-                    self.leaf::<S, ANY>(simd, leaf, these, answers, (packet, probes), scratch);
+                    self.leaf::<S, ANY>(simd, (leaf, mask), &mut group, scratch);
                 }
                 Led::Alone(at, mask) => {
-                    let (rays, seen) = these;
                     for lane in lanes(mask) {
-                        let (at, these) = ((at, lane), (rays, &mut *seen));
-                        let answers = &mut (&mut *hits, &mut *blocked);
-                        let parts = (&mut *packet, &mut *probes);
-                        self.alone::<S, ANY>(simd, index, at, these, answers, parts, scratch);
+                        self.alone::<S, ANY>(simd, index, (at, lane), &mut group, scratch);
                     }
                 }
                 end => break end,
             }
         };
         if !ANY {
-            self.members.children.tell_hits(packet, probes, hits);
+            self.members.children.tell_hits(group.packet, group.probes, group.answers.0);
         }
-        scratch.mailbox.close(seen.unwrap_or_default());
+        scratch.mailbox.close(group.seen.unwrap_or_default());
         end == Led::Done
     }
 
@@ -190,11 +195,10 @@ impl<I: Index, C: Children> Accel<I, C> {
         &self,
         simd: S,
         (leaf, mask): (Leaf, u32),
-        (rays, seen): (&[Ray], &mut Option<Stamp>),
-        (hits, blocked): Answers<'_>,
-        (packet, probes): (&mut Packet, &mut C::Probes),
+        group: &mut Group<'_, C::Probes>,
         scratch: &mut Scratch,
     ) {
+        let Group { rays, answers: (hits, blocked), packet, probes, seen } = group;
         if ANY {
             let hit = if Self::PACKED {
                 self.members.children.any_in_leaf_by(simd, leaf, mask, packet, probes)
@@ -222,26 +226,22 @@ impl<I: Index, C: Children> Accel<I, C> {
         simd: S,
         index: &I,
         (mut at, lane): (Step, usize),
-        (rays, seen): (&[Ray], &mut Option<Stamp>),
-        (hits, blocked): &mut Answers<'_>,
-        (packet, probes): (&mut Packet, &mut C::Probes),
+        group: &mut Group<'_, C::Probes>,
         scratch: &mut Scratch,
     ) {
         let mut trail = Trail::new();
-        let mut cursor = index.part(packet, lane, &mut trail);
-        let mut walk = Walk { ray: &rays[lane], trail: &mut trail, family: &self.members };
+        let mut cursor = index.part(group.packet, lane, &mut trail);
+        let mut walk = Walk { ray: &group.rays[lane], trail: &mut trail, family: &self.members };
         loop {
             while at.is_onward() {
-                let limit = packet.limit[lane];
+                let limit = group.packet.limit[lane];
                 at = index.step::<S, Asks<ANY, false>>(simd, &mut walk, &mut cursor, at, limit);
             }
             if at.is_done() {
                 return;
             }
-            let leaf = (at.as_leaf(), 1 << lane);
-            let answers = (&mut **hits, &mut **blocked);
-            self.leaf::<S, ANY>(simd, leaf, (rays, seen), answers, (packet, probes), scratch);
-            let limit = packet.limit[lane];
+            self.leaf::<S, ANY>(simd, (at.as_leaf(), 1 << lane), group, scratch);
+            let limit = group.packet.limit[lane];
             if ANY && limit == f32::NEG_INFINITY {
                 return;
             }
