@@ -1,5 +1,6 @@
 //! What a search found, as a page of its own: nothing in it comes from elsewhere, nothing in it runs.
 
+mod boxes;
 mod chart;
 mod icicle;
 mod scatter;
@@ -12,6 +13,8 @@ use nestray::plan::optimize::ray_log::RayLog;
 use nestray::plan::optimize::{Optimized, Options};
 
 use super::nest::Nest;
+
+pub(super) use self::boxes::Boxes;
 
 /// Of all text and lines.
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:62rem;\
@@ -53,6 +56,14 @@ pub(super) fn page(
          spends in it: steps and tests that were counted, times rough prices.",
         icicle::draw(&nest.spent),
     );
+    if let Some(boxes) = &nest.boxes {
+        section(
+            "Where it stands in the scene",
+            "Boxes of techniques over a picture, the largest; instances by the technique inside them, \
+             and how many there are of each.",
+            boxes.draw(),
+        );
+    }
     section(
         "Techniques and nests, by kind of rays",
         "Nanoseconds per ray, measured; in brackets what was expected. The darker, the nearer to the \

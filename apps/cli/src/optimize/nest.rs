@@ -7,6 +7,7 @@ use nestray::plan::optimize::ray_log::RayLog;
 use nestray::plan::prices::Prices;
 use nestray::prelude::Scene;
 
+use super::html::Boxes;
 use crate::errors::Failure;
 use crate::input;
 use crate::inspect::pilot;
@@ -15,6 +16,8 @@ use crate::inspect::pilot;
 pub(super) struct Nest {
     pub(super) part: Part,
     pub(super) spent: Spent,
+    /// None if there is no camera.
+    pub(super) boxes: Option<Boxes>,
 }
 
 impl Nest {
@@ -30,7 +33,7 @@ impl Nest {
         let prices = &prices.scattered;
         let part = describe(&world, prices).counted(&sent);
         let spent = part.spent(prices, &|rays| weight(rays, &sent, log));
-        Ok(Self { part, spent })
+        Ok(Self { part, spent, boxes: Boxes::new(scene, &*world)? })
     }
 }
 

@@ -102,7 +102,7 @@ fn a_cache_that_is_of_no_use_is_worked_without() {
     let check = |text: &[u8], word: &str| {
         fs::write(kept, text).expect("writable");
         let (picture, ran) = pictures.render(SEARCH);
-        let said = |line: &&str| line.contains("the cache of plans is not used");
+        let said = |line: &&str| line.contains("the cache is not used");
         let lines: Vec<&str> = ran.errors.lines().filter(said).collect();
         assert!(lines.len() == 1 && lines[0].contains(word), "{}", ran.errors);
         assert!(ran.errors.contains("plan auto: searched for") && picture == usual);
@@ -115,7 +115,7 @@ fn a_cache_that_is_of_no_use_is_worked_without() {
     fs::remove_dir_all(pictures.cache()).expect("it goes");
     fs::write(pictures.cache(), "in the way").expect("writable");
     let (picture, ran) = pictures.render(SEARCH);
-    assert_eq!(ran.errors.matches("the cache of plans is not used").count(), 1, "{}", ran.errors);
+    assert_eq!(ran.errors.matches("the cache is not used").count(), 1, "{}", ran.errors);
     assert!(picture == usual);
     assert_eq!(fs::read(pictures.cache()).expect("there"), b"in the way");
 }

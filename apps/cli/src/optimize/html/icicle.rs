@@ -66,7 +66,7 @@ fn part(spent: &Spent, [x, y]: [f64; 2], scale: f64, all: f64, drawing: &mut Dra
 }
 
 /// The same for the same technique, everywhere.
-fn color(kind: &str) -> &'static str {
+pub(super) fn color(kind: &str) -> &'static str {
     let sum = kind.bytes().fold(7usize, |sum, byte| sum.wrapping_mul(31).wrapping_add(byte.into()));
     COLORS[sum % (COLORS.len() - 1)]
 }
