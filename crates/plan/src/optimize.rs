@@ -197,6 +197,13 @@ impl<'a> Limits<'a> {
         Self { end, ..self.clone() }
     }
 
+    /// The same, ending when so much of the time that is left now is still to come.
+    fn earlier(&self, part: f64) -> Self {
+        let left = (self.end - self.clock.seconds()).max(0.0);
+        let end = if left.is_finite() { self.end - part * left } else { self.end };
+        Self { end, ..self.clone() }
+    }
+
     /// Whether no more plans may be tried after so many.
     pub(crate) fn reached(&self, evaluations: usize) -> bool {
         self.observer.stop()

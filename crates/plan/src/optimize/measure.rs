@@ -59,6 +59,8 @@ const STILL_FAR: f64 = 1.4;
 /// Turns in which something must be far from the best, each time, to be left out: others that want
 /// the same processor and memory come and go.
 const TURNS: usize = 3;
+/// Part of the time that is left for what is put together of the fastest for each kind.
+const LAST: f64 = 0.25;
 /// How much faster a nest must be than something simpler.
 const SIMPLER: f64 = 1.02;
 
@@ -90,9 +92,10 @@ pub(super) fn race(
     limits: &Limits<'_>,
     efforts: &Efforts,
 ) -> Result<Vec<Measured>, PlanError> {
-    let race = Race { scene, limits, few: log.thinned(FIRST), all: log.thinned(RAYS) };
+    let early = limits.earlier(LAST);
+    let race = Race { scene, limits: &early, few: log.thinned(FIRST), all: log.thinned(RAYS) };
     let is_time_for = |finalist: &Finalist| {
-        !limits.observer.stop() && limits.is_time_for(&[efforts.expected(&finalist.plan)])
+        !limits.observer.stop() && early.is_time_for(&[efforts.expected(&finalist.plan)])
     };
     // What was put together of others may not go together.
     let is_sound =
@@ -105,10 +108,12 @@ pub(super) fn race(
         }
     }
     race.run(&mut runners);
-    if let Some(finalist) = joined(&runners, log)
-        && is_time_for(&finalist)
+    if let Some((finalist, seconds)) = joined(&runners, log)
+        && !limits.observer.stop()
+        && limits.is_time_for(&[seconds])
         && is_sound(&finalist)
     {
+        let race = Race { limits, ..race };
         // Against what is best so far, in turns with it.
         let mut last = vec![race.enter(finalist)?];
         let fastest = (0..runners.len())
@@ -240,21 +245,30 @@ fn fastest(runners: &[Runner]) -> Option<usize> {
     (0..runners.len()).min_by(|&a, &b| mix(a).total_cmp(&mix(b)))
 }
 
-/// For each kind of rays what was fastest for those, if that is not the same for all.
-fn joined(runners: &[Runner], log: &RayLog) -> Option<Finalist> {
-    let fastest = |set: usize| {
-        let nanos = |runner: &Runner| runner.measured.nanos[set];
-        runners.iter().min_by(|a, b| nanos(a).total_cmp(&nanos(b)))
-    };
-    let plans: Vec<&Plan> = (0..log.sets.len())
-        .map(|set| fastest(set).map(|runner| &runner.measured.finalist.plan))
-        .collect::<Option<_>>()?;
+/// What is fastest for the mix, with something else for each kind of rays that is faster for those; none
+/// if there is nothing. And how many seconds it may take to build, all parts anew.
+fn joined(runners: &[Runner], log: &RayLog) -> Option<(Finalist, f64)> {
     // What is made for some kinds already cannot stand in it.
-    if plans.iter().any(|plan| matches!(plan.root, Node::ByKind(_))) {
-        return None;
-    }
+    let whole: Vec<&Runner> = runners
+        .iter()
+        .filter(|runner| !matches!(runner.measured.finalist.plan.root, Node::ByKind(_)))
+        .collect();
+    let least = |of: &dyn Fn(&Measured) -> f64| {
+        let of = |runner: &&&Runner| of(&runner.measured);
+        whole.iter().min_by(|a, b| of(a).total_cmp(&of(b))).map(|runner| &runner.measured)
+    };
+    let usual = least(&|measured| measured.mix)?;
+    let fastest = |set: usize| -> &Measured {
+        let best = least(&|measured| measured.nanos[set]).unwrap_or(usual);
+        let is_faster = usual.nanos[set] > SIMPLER * best.nanos[set];
+        if is_faster { best } else { usual }
+    };
+    let parts: Vec<&Measured> = (0..log.sets.len()).map(fastest).collect();
+    let plans: Vec<&Plan> = parts.iter().map(|part| &part.finalist.plan).collect();
     let plan = composed(log, &plans)?;
-    Some(Finalist { name: "by kind, as timed".into(), plan, predicted: None, is_single: false })
+    let seconds = parts.iter().map(|part| part.build_seconds).sum();
+    let name = "by kind, as timed".into();
+    Some((Finalist { name, plan, predicted: None, is_single: false }, seconds))
 }
 
 /// The number of the fastest, or of something simpler that is hardly slower.
