@@ -57,12 +57,7 @@ pub(super) fn page(
         icicle::draw(&nest.spent),
     );
     if let Some(boxes) = &nest.boxes {
-        section(
-            "Where it stands in the scene",
-            "Boxes of techniques over a picture, the largest; instances by the technique inside them, \
-             and how many there are of each.",
-            boxes.draw(),
-        );
+        section("Where it stands in the scene", boxes::ABOUT, boxes.draw());
     }
     section(
         "Techniques and nests, by kind of rays",

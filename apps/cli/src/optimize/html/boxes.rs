@@ -25,6 +25,10 @@ const DEEPEST: usize = 6;
 /// Edges are drawn from this far before the eye on, over the size of all.
 const NEAR: f32 = 1e-3;
 
+/// What is to be seen.
+pub(super) const ABOUT: &str = "Boxes of techniques over a picture, the largest; instances by the \
+    technique inside them; how many there are of each.";
+
 /// A picture, and what stands where.
 pub(in crate::optimize) struct Boxes {
     /// A PNG file.
