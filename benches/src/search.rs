@@ -187,7 +187,9 @@ fn row(found: &Found) -> Option<Row> {
     let errors = pairs.iter().map(|[expected, taken]| (expected / taken - 1.0).abs()).collect();
     let (gain, regret) = (single.total / winner.total, chosen / best);
     let (spearman, error) = (rank_correlation(&pairs), median(errors));
-    let mut text = format!("| {} | {} | {} | {gain:.2} |", found.scene, winner.name, single.name);
+    let singles = timed.iter().filter(|one| one.single).count();
+    let mut text =
+        format!("| {} | {} | {} of {singles} | {gain:.2} |", found.scene, winner.name, single.name);
     for (kind, _) in KINDS {
         let at = found.sets().iter().position(|(name, _)| name == kind);
         let least = |all: &mut dyn Iterator<Item = &Timed>, at: usize| {
@@ -232,8 +234,8 @@ fn page(all: &[Found]) -> String {
          builtin:truss -o plan.json --budget {BUDGET} --rays-expected 1e9` |\n"
     );
     text.push_str(
-        "*Gain* is how many times as fast the plan is as the best single technique, for the mix; then \
-         for each kind, over the single technique that is best for that kind. *Plans* are those that \
+        "*Gain* is how many times as fast the plan is as the best single technique of those that there was \
+         time to time, for the mix; then for each kind, over the single technique that is best for that kind. *Plans* are those that \
          were both priced and timed: how alike the two orders are (Spearman), how much slower the one \
          that was expected to be best is than the best (regret), and how far prices are off in the \
          median. Then how many plans were tried, and in what time.\n\n| scene | plan | best single | gain |",
@@ -287,6 +289,10 @@ mod tests {
                 one("grid", true, 110.0, 110.0), one("list", true, 900.0, 800.0)] });
         let row = row(&Found { scene: "any".into(), report }).expect("there is a winner");
         assert!((row.gain - 1.1).abs() < 1e-9 && (row.regret - 1.1).abs() < 1e-9);
-        assert!(row.text.starts_with("| any | nest | grid | 1.10 | 1.10 | – |"), "{}", row.text);
+        assert!(
+            row.text.starts_with("| any | nest | grid of 3 | 1.10 | 1.10 | – |"),
+            "{}",
+            row.text
+        );
     }
 }
