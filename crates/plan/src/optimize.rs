@@ -197,9 +197,14 @@ impl<'a> Limits<'a> {
         Self { end, ..self.clone() }
     }
 
+    /// Seconds that are left.
+    fn left(&self) -> f64 {
+        (self.end - self.clock.seconds()).max(0.0)
+    }
+
     /// The same, ending when so much of the time that is left now is still to come.
     fn earlier(&self, part: f64) -> Self {
-        let left = (self.end - self.clock.seconds()).max(0.0);
+        let left = self.left();
         let end = if left.is_finite() { self.end - part * left } else { self.end };
         Self { end, ..self.clone() }
     }

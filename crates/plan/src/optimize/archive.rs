@@ -176,9 +176,10 @@ impl Archive {
         self.in_order(finalists)
     }
 
-    /// The usual plan first, then what is expected to be fastest: should time run out, the rest is
-    /// not missed.
-    fn in_order(&self, mut finalists: Vec<Finalist>) -> Vec<Finalist> {
+    /// The usual plan first, then nests and single techniques in turns, of each what is expected to be
+    /// fastest first: should time run out, the rest is not missed, and there is something to hold
+    /// the nests against.
+    fn in_order(&self, finalists: Vec<Finalist>) -> Vec<Finalist> {
         let usual = self.tried.first().map(|tried| &tried.plan);
         let place = |finalist: &Finalist| {
             if Some(&finalist.plan) == usual {
@@ -187,8 +188,19 @@ impl Archive {
             // What is put together of the best for each kind is better than any of them.
             finalist.predicted.as_ref().map_or(0.0, |score| score.mix(&self.log))
         };
-        finalists.sort_by(|a, b| place(a).total_cmp(&place(b)));
-        finalists
+        let is_first = |one: &Finalist| one.is_single || Some(&one.plan) == usual;
+        let (mut singles, mut nests): (Vec<Finalist>, Vec<Finalist>) =
+            finalists.into_iter().partition(is_first);
+        for all in [&mut singles, &mut nests] {
+            all.sort_by(|a, b| place(a).total_cmp(&place(b)));
+        }
+        let (mut singles, mut nests) = (singles.into_iter(), nests.into_iter());
+        let mut ordered = Vec::new();
+        while singles.len() + nests.len() > 0 {
+            ordered.extend(singles.next());
+            ordered.extend(nests.next());
+        }
+        ordered
     }
 }
 

@@ -1,14 +1,15 @@
 //! Timing the plans that a search ends with: what is fastest then is taken.
 
+mod joined;
 pub(crate) mod shots;
 
 use nestray_core::cost::CostModel;
 use nestray_core::object::{DynObject, Object as _};
 use nestray_scene::scene::Scene;
 
+use self::joined::joined;
 use self::shots::{median, mixed, per_ray, shoot};
 use super::Limits;
-use super::archive::composed;
 use super::effort::Efforts;
 use super::ray_log::RayLog;
 use super::score::Score;
@@ -49,8 +50,10 @@ pub struct Measured {
     pub rounds: usize,
 }
 
-/// Rays of each set that are timed in a turn.
-const RAYS: usize = 32_768;
+/// Rays of each set that are timed in a turn, at least and at most.
+const RAYS: [usize; 2] = [4096, 32_768];
+/// So many turns there should be time for.
+const ALL_TURNS: f64 = 240.0;
 /// Rays of each set that tell what is far from the best.
 const FIRST: usize = 512;
 /// So many times as slow as the best is far from it, at first and later.
@@ -93,7 +96,8 @@ pub(super) fn race(
     efforts: &Efforts,
 ) -> Result<Vec<Measured>, PlanError> {
     let early = limits.earlier(LAST);
-    let race = Race { scene, limits: &early, few: log.thinned(FIRST), all: log.thinned(RAYS) };
+    let mut race =
+        Race { scene, limits: &early, few: log.thinned(FIRST), all: log.thinned(RAYS[1]) };
     let is_time_for = |finalist: &Finalist| {
         !limits.observer.stop() && early.is_time_for(&[efforts.expected(&finalist.plan)])
     };
@@ -104,6 +108,9 @@ pub(super) fn race(
     for finalist in finalists {
         if (runners.is_empty() || is_time_for(&finalist)) && is_sound(&finalist) {
             let runner = race.enter(finalist)?;
+            if runners.is_empty() {
+                race.all = log.thinned(race.rays_of_a_turn(&runner));
+            }
             out.extend(race.admit(runner, &mut runners));
         }
     }
@@ -139,6 +146,14 @@ impl Race<'_> {
         let mut runner = Runner { world, measured, times };
         self.warm(&mut runner, &self.few);
         Ok(runner)
+    }
+
+    /// So many rays of each set that there is time for many turns, judged by the first to run.
+    fn rays_of_a_turn(&self, first: &Runner) -> usize {
+        let one_each: f64 = first.measured.nanos.iter().sum::<f64>() * 1e-9;
+        let fit = self.limits.left() / (ALL_TURNS * one_each.max(f64::MIN_POSITIVE));
+        // Endless time fits endlessly many.
+        (fit as usize).clamp(RAYS[0], RAYS[1])
     }
 
     /// Lets one run with the others, unless it is far from the best; if it is the best itself,
@@ -243,32 +258,6 @@ impl Race<'_> {
 fn fastest(runners: &[Runner]) -> Option<usize> {
     let mix = |i: usize| runners[i].measured.mix;
     (0..runners.len()).min_by(|&a, &b| mix(a).total_cmp(&mix(b)))
-}
-
-/// What is fastest for the mix, with something else for each kind of rays that is faster for those; none
-/// if there is nothing. And how many seconds it may take to build, all parts anew.
-fn joined(runners: &[Runner], log: &RayLog) -> Option<(Finalist, f64)> {
-    // What is made for some kinds already cannot stand in it.
-    let whole: Vec<&Runner> = runners
-        .iter()
-        .filter(|runner| !matches!(runner.measured.finalist.plan.root, Node::ByKind(_)))
-        .collect();
-    let least = |of: &dyn Fn(&Measured) -> f64| {
-        let of = |runner: &&&Runner| of(&runner.measured);
-        whole.iter().min_by(|a, b| of(a).total_cmp(&of(b))).map(|runner| &runner.measured)
-    };
-    let usual = least(&|measured| measured.mix)?;
-    let fastest = |set: usize| -> &Measured {
-        let best = least(&|measured| measured.nanos[set]).unwrap_or(usual);
-        let is_faster = usual.nanos[set] > SIMPLER * best.nanos[set];
-        if is_faster { best } else { usual }
-    };
-    let parts: Vec<&Measured> = (0..log.sets.len()).map(fastest).collect();
-    let plans: Vec<&Plan> = parts.iter().map(|part| &part.finalist.plan).collect();
-    let plan = composed(log, &plans)?;
-    let seconds = parts.iter().map(|part| part.build_seconds).sum();
-    let name = "by kind, as timed".into();
-    Some((Finalist { name, plan, predicted: None, is_single: false }, seconds))
 }
 
 /// The number of the fastest, or of something simpler that is hardly slower.
