@@ -192,6 +192,7 @@ impl Auto<'_> {
             let build = begun.elapsed().as_secs_f64();
             let [default, best] = pilot.in_turns(self.scene, [&tried.world, &world])?;
             entry.default.sample = default;
+            entry.best = entry.default;
             let taken = Taken { sample: best, build };
             if self.seconds(&entry.default) > FASTER * self.seconds(&taken) {
                 (entry.best, entry.plan) = (taken, same.clone());
