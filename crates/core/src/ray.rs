@@ -83,6 +83,10 @@ impl Ray {
     /// Largest size of the longest component of a direction.
     pub const LONGEST: f32 = 1e12;
 
+    /// Origin and direction of a ray that hits nothing.
+    const VOID: (Vec4, Vec4) =
+        (Vec4::new(0.0, 0.0, 0.0, f32::INFINITY), Vec4::new(1.0, 0.0, 0.0, f32::NEG_INFINITY));
+
     /// A ray over `[0, ∞)` at the start of the shutter, from no surface. `dir` may have any
     /// length but zero; `t` counts in multiples of it.
     #[inline(always)]
@@ -94,16 +98,9 @@ impl Ray {
             & size.cmple(Vec3A::splat(Self::LONGEST)))
         .all()
             && size.cmpge(Vec3A::splat(Self::SHORTEST)).any();
-        if !usable {
-            return Self::void(kind, 0.0);
-        }
-        Self {
-            from: origin.extend(0.0),
-            along: dir.extend(f32::INFINITY),
-            time: 0.0,
-            kind,
-            source: Source::NONE,
-        }
+        let (from, along) =
+            if usable { (origin.extend(0.0), dir.extend(f32::INFINITY)) } else { Self::VOID };
+        Self { from, along, time: 0.0, kind, source: Source::NONE }
     }
 
     /// The same ray with hits accepted only where `t_min ≤ t ≤ t_max`. A negative `t_min`
@@ -111,14 +108,18 @@ impl Ray {
     #[inline(always)]
     #[must_use]
     pub fn between(self, t_min: f32, t_max: f32) -> Self {
+        let (own_min, own_max) = (self.t_min(), self.t_max());
+        let least = if t_min > own_min { t_min } else { own_min };
+        let most = if t_max < own_max { t_max } else { own_max };
         // Not of NaN.
-        if t_min < f32::INFINITY && t_max <= f32::INFINITY {
+        let usable = t_min < f32::INFINITY && t_max <= f32::INFINITY;
+        let (from, along) = if usable {
             // Not −0: then what begins there sorts as an integer does.
-            let from = self.from.with_w(self.t_min().max(t_min) + 0.0);
-            Self { from, along: self.along.with_w(self.t_max().min(t_max)), ..self }
+            (self.from.with_w(least + 0.0), self.along.with_w(most))
         } else {
-            Self::void(self.kind, self.time)
-        }
+            Self::VOID
+        };
+        Self { from, along, ..self }
     }
 
     /// The same ray over `[0, ∞)` again; one that hits nothing stays so.
@@ -145,19 +146,6 @@ impl Ray {
     #[must_use]
     pub fn leaving(self, source: Source) -> Self {
         Self { source, ..self }
-    }
-
-    /// A ray that hits nothing.
-    #[cold]
-    #[inline(never)]
-    fn void(kind: RayKind, time: f32) -> Self {
-        Self {
-            from: Vec3A::ZERO.extend(f32::INFINITY),
-            along: Vec3A::X.extend(f32::NEG_INFINITY),
-            time,
-            kind,
-            source: Source::NONE,
-        }
     }
 
     /// Start point, in the space of the object being tested.

@@ -29,6 +29,10 @@ pub trait Technique:
     /// The word used for it in plans and on the command line.
     const NAME: &'static str;
 
+    /// How many times as long as the usual hierarchy of boxes it takes to build and try, roughly: for
+    /// whoever has to know before it was tried.
+    const EFFORT: f64 = 5.0;
+
     /// What it makes of children.
     type Index: Index;
 

@@ -1,7 +1,6 @@
 //! What steps and tests cost on this machine: every technique is timed over scenes of all kinds,
 //! and the prices are those that explain the times best, given what was counted.
 
-mod fit;
 mod runs;
 
 use nestray_scene::scene::Scene;
@@ -10,8 +9,7 @@ use crate::error::PlanError;
 use crate::optimize::Observer;
 use crate::optimize::ray_log::RayLog;
 use crate::prices::Prices;
-
-use self::runs::Run;
+use crate::prices::fit::{self, Run};
 
 /// A scene to time techniques over, and rays.
 #[derive(Clone, Debug)]
@@ -36,6 +34,9 @@ pub struct Calibration {
     pub error: f64,
 }
 
+/// How much the usual prices weigh against one run: enough where nothing else is known.
+const PRIOR: f64 = 0.01;
+
 /// Prices of this machine, by one thread: nothing else should run. `Observer::tried` is told how many
 /// scenes are done.
 ///
@@ -53,7 +54,9 @@ pub fn calibrate(
         runs.extend(runs::of(&sample, observer)?);
         observer.tried(done, 0.0);
     }
-    Ok(Calibration { prices: fit::prices(&runs), runs: runs.len(), error: fit::error(&runs) })
+    let usual = Prices::usual();
+    let prices = fit::prices(&runs, usual, PRIOR);
+    Ok(Calibration { prices, runs: runs.len(), error: fit::error(&runs, usual, PRIOR) })
 }
 
 #[cfg(test)]

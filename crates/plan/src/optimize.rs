@@ -1,7 +1,8 @@
 //! Finding the plan that is fastest for a scene.
 //!
 //! Rays of the kinds that will be cast say what counts: a [`RayLog`]. Plans are tried by building
-//! them, sending some of the rays through them, and pricing what was counted ([`Scorer`]). Replicas at
+//! them, sending some of the rays through them, and pricing what was counted ([`Scorer`]); the first of them
+//! are timed too, which tells what prices are in this scene. Replicas at
 //! different temperatures change plans step by step ([`anneal`]), each after a goal of its own: the
 //! mix of all rays, or those of one kind, for a world may be put in order for each kind apart. In
 //! the end the best of what was seen, and every single technique, are timed on other rays
@@ -17,7 +18,9 @@ pub mod start;
 mod archive;
 pub(crate) mod clock;
 pub(crate) mod effort;
+mod learn;
 mod pins;
+mod shelf;
 
 use std::time::Duration;
 
@@ -30,6 +33,8 @@ use self::measure::{Finalist, Measured};
 use self::pins::Pins;
 use self::ray_log::RayLog;
 use self::score::{Score, Scorer};
+use self::shelf::Shelf;
+use self::start::Start;
 use crate::error::PlanError;
 use crate::fingerprint::fingerprint;
 use crate::plan::Plan;
@@ -48,7 +53,7 @@ pub struct Options {
     /// Most plans to try; the same number finds the same plans on every machine.
     pub evaluations: Option<usize>,
     /// Most time to try them: none is begun that may take longer. What is timed in the end comes on
-    /// top, half of this again at most.
+    /// top, as long again at most.
     pub time: Option<Duration>,
     /// Another number goes other ways.
     pub seed: u64,
@@ -144,13 +149,14 @@ fn optimize_by(
     let allowed = start::allowed(&options.techniques)?;
     let pins = Pins::new(options.start.as_ref(), &options.pins)?;
     let (search_log, timed_log) = log.halves();
-    let scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
-    let mut archive = Archive::new(&search_log);
+    let mut scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
+    let (mut archive, mut shelf) = (Archive::new(&search_log), Shelf::default());
+    let mut start = Start::new(&search_log, limits, (&mut scorer, &mut archive), &mut shelf);
     if let Some(plan) = &options.start {
-        start::given(plan, scene, &scorer, limits, &mut archive)?;
+        start.given(plan)?;
     }
     if pins.are_none() {
-        start::singles(scene, &allowed, &scorer, limits, &mut archive)?;
+        start.singles(&allowed)?;
     }
     let mut trace = Vec::new();
     let tempering = Tempering { scene, allowed: &allowed, pins: &pins, seed: options.seed };
@@ -160,7 +166,8 @@ fn optimize_by(
     let (expected, candidates) = (archive.cheapest(), archive.candidates());
     let finalists: Vec<Finalist> = archive.finalists();
     let timing = limits.timing();
-    let mut measured = measure::race(scene, finalists, &timed_log, &timing, &archive.efforts)?;
+    let built = (&archive.efforts, shelf);
+    let mut measured = measure::race(scene, finalists, &timed_log, &timing, built)?;
     let winner = measure::choose(&measured);
     let mut plan = measured[winner].finalist.plan.clone();
     plan.scene = Some(fingerprint(scene));
@@ -188,12 +195,10 @@ impl<'a> Limits<'a> {
 
     /// Those of the timing, which begins now.
     fn timing(&self) -> Self {
-        /// Part of the time of the search.
-        const PART: f64 = 0.5;
         // What the search took too much, it has less.
         let begun = self.clock.seconds().min(self.end);
         let time = self.options.time.map_or(f64::INFINITY, |time| time.as_secs_f64());
-        let end = begun + PART * time;
+        let end = begun + time;
         Self { end, ..self.clone() }
     }
 

@@ -1,5 +1,7 @@
 //! What steps and tests cost, for rays that go together and for rays that go alone.
 
+pub(crate) mod fit;
+
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -7,8 +9,6 @@ use nestray_core::cost::CostModel;
 use nestray_core::counters::Tally;
 use nestray_registry as registry;
 use serde::{Deserialize, Serialize};
-
-use crate::optimize::ray_log::RaySet;
 
 /// Prices of rays in batches, in nanoseconds.
 ///
@@ -36,10 +36,11 @@ impl Prices {
         &USUAL
     }
 
-    /// Those of the rays of a set.
+    /// Those of rays with neighbours, or without; see
+    /// [`RaySet::are_neighbours`](crate::optimize::ray_log::RaySet::are_neighbours).
     #[must_use]
-    pub fn of(&self, set: &RaySet) -> &CostModel {
-        if set.are_neighbours() { &self.neighbours } else { &self.scattered }
+    pub fn of(&self, neighbours: bool) -> &CostModel {
+        if neighbours { &self.neighbours } else { &self.scattered }
     }
 
     /// Whether they are numbers that can be prices.

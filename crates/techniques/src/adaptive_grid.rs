@@ -38,6 +38,7 @@ const FEWER: f64 = 0.9;
 
 impl Technique for AdaptiveGrid {
     const NAME: &'static str = "adaptive-grid";
+    const EFFORT: f64 = 2.0;
     type Index = Grids;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Grids {

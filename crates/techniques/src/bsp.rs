@@ -23,6 +23,7 @@ pub struct Bsp {
 
 impl Technique for Bsp {
     const NAME: &'static str = "bsp";
+    const EFFORT: f64 = 2.0;
     type Index = Cells;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {

@@ -40,6 +40,7 @@ impl Default for EyeBuffer {
 
 impl Technique for EyeBuffer {
     const NAME: &'static str = "eye-buffer";
+    const EFFORT: f64 = 4.0;
     type Index = Beams;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {

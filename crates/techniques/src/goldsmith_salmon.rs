@@ -45,6 +45,7 @@ impl Default for GoldsmithSalmon {
 
 impl Technique for GoldsmithSalmon {
     const NAME: &'static str = "goldsmith-salmon";
+    const EFFORT: f64 = 15.0;
     type Index = WideTree;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {

@@ -33,6 +33,7 @@ impl Default for KdTree {
 
 impl Technique for KdTree {
     const NAME: &'static str = "kd-tree";
+    const EFFORT: f64 = 6.0;
     type Index = Cells;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {

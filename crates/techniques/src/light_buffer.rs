@@ -46,6 +46,7 @@ impl Default for LightBuffer {
 
 impl Technique for LightBuffer {
     const NAME: &'static str = "light-buffer";
+    const EFFORT: f64 = 4.0;
     type Index = Beams;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {

@@ -23,6 +23,7 @@ pub struct MacroRegions {
 
 impl Technique for MacroRegions {
     const NAME: &'static str = "macro-regions";
+    const EFFORT: f64 = 6.0;
     type Index = Grids;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Grids {

@@ -45,6 +45,7 @@ const HALVES_FROM: [usize; 3] = [96, 24, 0];
 
 impl Technique for MotionBvh {
     const NAME: &'static str = "motion-bvh";
+    const EFFORT: f64 = 1.5;
     type Index = TimedTree;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> TimedTree {

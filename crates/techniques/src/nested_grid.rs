@@ -39,6 +39,7 @@ const WORTH: f64 = 0.9;
 
 impl Technique for NestedGrid {
     const NAME: &'static str = "nested-grid";
+    const EFFORT: f64 = 4.0;
     type Index = Grids;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Grids {

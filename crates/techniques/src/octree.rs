@@ -41,6 +41,7 @@ pub enum Places {
 
 impl Technique for Octree {
     const NAME: &'static str = "octree";
+    const EFFORT: f64 = 2.0;
     type Index = Cells;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Cells {

@@ -33,6 +33,7 @@ impl Default for Ploc {
 
 impl Technique for Ploc {
     const NAME: &'static str = "ploc";
+    const EFFORT: f64 = 2.0;
     type Index = WideTree;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {

@@ -43,6 +43,7 @@ const FIRST: u32 = 12;
 
 impl Technique for RayClassification {
     const NAME: &'static str = "ray-classification";
+    const EFFORT: f64 = 8.0;
     type Index = Beams;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {

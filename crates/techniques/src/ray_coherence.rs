@@ -41,6 +41,7 @@ impl Default for RayCoherence {
 
 impl Technique for RayCoherence {
     const NAME: &'static str = "ray-coherence";
+    const EFFORT: f64 = 1.5;
     type Index = Beams;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> Beams {

@@ -43,6 +43,7 @@ impl Default for Reinsertion {
 
 impl Technique for Reinsertion {
     const NAME: &'static str = "reinsertion";
+    const EFFORT: f64 = 8.0;
     type Index = WideTree;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> WideTree {

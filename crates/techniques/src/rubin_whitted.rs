@@ -55,6 +55,7 @@ impl Default for RubinWhitted {
 
 impl Technique for RubinWhitted {
     const NAME: &'static str = "rubin-whitted";
+    const EFFORT: f64 = 12.0;
     type Index = RubinWhittedIndex;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> RubinWhittedIndex {

@@ -62,6 +62,7 @@ const MUCH: f64 = 1.05;
 
 impl Technique for Sbvh {
     const NAME: &'static str = "sbvh";
+    const EFFORT: f64 = 6.0;
     type Index = WideTree;
     const COPIES: usize = 2;
 

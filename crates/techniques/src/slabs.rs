@@ -47,6 +47,7 @@ impl Default for Slabs {
 
 impl Technique for Slabs {
     const NAME: &'static str = "slabs";
+    const EFFORT: f64 = 5.0;
     type Index = SlabsIndex;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> SlabsIndex {

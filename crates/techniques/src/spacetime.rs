@@ -43,6 +43,7 @@ const MOST_AROUND: [usize; 3] = [72, 24, 8];
 
 impl Technique for Spacetime {
     const NAME: &'static str = "spacetime";
+    const EFFORT: f64 = 10.0;
     type Index = TimedTree;
 
     fn build(&self, family: &dyn Family, leaves: &mut Leaves) -> TimedTree {

@@ -3,7 +3,6 @@
 use std::iter;
 
 use nestray_core::cost::CostModel;
-use nestray_core::counters::Tally;
 use nestray_core::hit::Hit;
 use nestray_core::object::{DynObject, Object as _};
 use nestray_core::scratch::Scratch;
@@ -18,23 +17,8 @@ use crate::optimize::effort::Efforts;
 use crate::optimize::measure::shots::{median, per_ray, shoot};
 use crate::optimize::ray_log::RaySet;
 use crate::presets::PRESETS;
+use crate::prices::fit::Run;
 use crate::single::{AUTO, single};
-
-/// What the rays of a set took in a technique, and what they did.
-#[derive(Clone, Debug)]
-pub(super) struct Run {
-    /// The scene.
-    pub(super) scene: String,
-    /// Whether rays have neighbours; see [`RaySet::are_neighbours`].
-    pub(super) neighbours: bool,
-    /// Of so many rays.
-    pub(super) tally: Tally,
-    pub(super) rays: usize,
-    /// Of the whole structure.
-    pub(super) bytes: u64,
-    /// Per ray.
-    pub(super) nanos: f64,
-}
 
 /// Rays of each set that are counted, and those that are timed.
 const COUNTED: usize = 2048;
@@ -101,5 +85,6 @@ fn run(sample: &Sample, world: &DynObject, set: &RaySet, clock: &Wall) -> Option
         // Not the usual prices: sums by those are kept, and would be those of before.
         bytes: world.cost(&CostModel::default()).bytes,
         nanos: median(&turns),
+        weight: 1.0,
     })
 }

@@ -12,7 +12,7 @@ use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 
 use super::Limits;
-use super::archive::{Archive, Goal};
+use super::archive::{Archive, Goal, Name};
 use super::moves::Move;
 use super::pins::Pins;
 use super::score::Scorer;
@@ -159,7 +159,7 @@ fn try_new(
     let scores: Vec<_> = order.par_iter().map(|plan| limits.score(scorer, plan)).collect();
     for (plan, (score, seconds)) in order.into_iter().zip(scores) {
         archive.efforts.note(plan, seconds);
-        archive.add(plan.clone(), score.ok(), None);
+        archive.add(plan.clone(), score.ok(), Name::None);
     }
 }
 

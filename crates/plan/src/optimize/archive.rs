@@ -16,8 +16,18 @@ use crate::plan::{ByKind, Node, Plan};
 pub(crate) struct Tried {
     pub(crate) plan: Plan,
     pub(crate) score: Score,
-    /// The technique, if it is one over everything with its usual settings.
-    pub(crate) single: Option<String>,
+    pub(crate) name: Name,
+}
+
+/// What a plan is known as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Name {
+    /// One technique over everything, with its usual settings.
+    Single(&'static str),
+    /// A preset over everything.
+    Preset(&'static str),
+    /// Nothing but a number.
+    None,
 }
 
 /// Every plan tried, by its hash.
@@ -41,7 +51,7 @@ pub(crate) enum Goal {
 
 /// Plans of each goal that are timed.
 const BEST: usize = 3;
-/// So many times as dear as the best, by what is expected, a single technique is timed too:
+/// So many times as dear as the best, by what is expected, what has a name is timed too:
 /// expectations are never so far off.
 const HOPE: f64 = 20.0;
 
@@ -67,14 +77,9 @@ impl Archive {
     }
 
     /// Takes note of a plan; its number if it can be built.
-    pub(crate) fn add(
-        &mut self,
-        plan: Plan,
-        score: Option<Score>,
-        single: Option<String>,
-    ) -> Option<usize> {
+    pub(crate) fn add(&mut self, plan: Plan, score: Option<Score>, name: Name) -> Option<usize> {
         let number = score.map(|score| {
-            self.tried.push(Tried { plan: plan.clone(), score, single });
+            self.tried.push(Tried { plan: plan.clone(), score, name });
             self.tried.len() - 1
         });
         self.by_hash.insert(plan.hash(), number);
@@ -83,7 +88,12 @@ impl Archive {
 
     /// Takes note of a plan that is timed in any case.
     pub(crate) fn add_given(&mut self, plan: Plan, score: Score) {
-        self.given = self.add(plan, Some(score), None);
+        self.given = self.add(plan, Some(score), Name::None);
+    }
+
+    /// Changes what a plan costs.
+    pub(crate) fn price_anew(&mut self, number: usize, score: Score) {
+        self.tried[number].score = score;
     }
 
     pub(crate) fn get(&self, number: usize) -> &Tried {
@@ -130,8 +140,8 @@ impl Archive {
         self.best(Goal::Mix).into_iter().take(MOST).map(candidate).collect()
     }
 
-    /// Plans to be timed: every single technique for which there is any hope, the best for each
-    /// goal, and for each kind of rays the best for those.
+    /// Plans to be timed: every single technique and preset for which there is any hope, and the best for
+    /// each goal.
     pub(crate) fn finalists(&self) -> Vec<Finalist> {
         let has_hope = |i: usize| {
             let goals = self.goals();
@@ -139,58 +149,46 @@ impl Archive {
                 let best = self.best(goal).first().map_or(0.0, |&best| self.cost(best, goal));
                 self.cost(i, goal) <= HOPE * best
             };
-            self.tried[i].single.is_some() && goals.iter().any(close)
+            self.tried[i].name != Name::None && goals.iter().any(close)
         };
         let mut numbers: BTreeSet<usize> = (0..self.tried.len()).filter(|&i| has_hope(i)).collect();
         numbers.extend(self.given);
         for goal in self.goals() {
             numbers.extend(self.best(goal).into_iter().take(BEST));
         }
-        let mut finalists: Vec<Finalist> = numbers
-            .into_iter()
-            .map(|number| {
-                let Tried { plan, score, single } = &self.tried[number];
-                Finalist {
-                    name: match single {
-                        Some(name) => name.clone(),
-                        None if self.given == Some(number) => "as given".into(),
-                        None => format!("plan {number}"),
-                    },
-                    plan: plan.clone(),
-                    predicted: Some(score.clone()),
-                    is_single: single.is_some(),
-                }
-            })
-            .collect();
-        let bests: Vec<&Plan> = (0..self.log.sets.len())
-            .filter_map(|set| self.best(Goal::Set(set)).first().map(|&i| &self.tried[i].plan))
-            .collect();
-        if let Some(plan) = composed(&self.log, &bests) {
-            finalists.push(Finalist {
-                name: "by kind, as expected".into(),
-                plan,
-                predicted: None,
-                is_single: false,
-            });
-        }
-        self.in_order(finalists)
+        let finalist = |number: usize| {
+            let Tried { plan, score, name } = &self.tried[number];
+            Finalist {
+                name: match *name {
+                    Name::Single(name) | Name::Preset(name) => name.into(),
+                    Name::None if self.given == Some(number) => "as given".into(),
+                    Name::None => format!("plan {number}"),
+                },
+                plan: plan.clone(),
+                predicted: Some(score.clone()),
+                is_single: matches!(name, Name::Single(_)),
+            }
+        };
+        self.in_order(numbers.into_iter().map(finalist).collect())
     }
 
-    /// The usual plan first, then nests and single techniques in turns, of each what is expected to be
-    /// fastest first: should time run out, the rest is not missed, and there is something to hold
-    /// the nests against.
+    /// The usual plan first, then nests and those that have a name in turns, of each what is expected
+    /// to be fastest first: should time run out, the rest is not missed, and there is something to
+    /// hold the nests against.
     fn in_order(&self, finalists: Vec<Finalist>) -> Vec<Finalist> {
         let usual = self.tried.first().map(|tried| &tried.plan);
         let place = |finalist: &Finalist| {
             if Some(&finalist.plan) == usual {
                 return f64::NEG_INFINITY;
             }
-            // What is put together of the best for each kind is better than any of them.
-            finalist.predicted.as_ref().map_or(0.0, |score| score.mix(&self.log))
+            finalist.predicted.as_ref().map_or(f64::INFINITY, |score| score.mix(&self.log))
         };
-        let is_first = |one: &Finalist| one.is_single || Some(&one.plan) == usual;
+        let has_name = |one: &Finalist| {
+            let number = self.known(&one.plan.hash()).flatten();
+            number.is_some_and(|number| self.tried[number].name != Name::None)
+        };
         let (mut singles, mut nests): (Vec<Finalist>, Vec<Finalist>) =
-            finalists.into_iter().partition(is_first);
+            finalists.into_iter().partition(|one| has_name(one) || Some(&one.plan) == usual);
         for all in [&mut singles, &mut nests] {
             all.sort_by(|a, b| place(a).total_cmp(&place(b)));
         }

@@ -5,6 +5,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nestray_registry as registry;
+
 use crate::plan::{Node, Plan};
 
 /// What is known of the plans of a scene so far.
@@ -20,18 +22,11 @@ pub(crate) struct Efforts {
     surprise: f64,
 }
 
-/// How many times as long as the usual technique others take to build and try, in the worst scenes
-/// seen.
+/// How many times as long as the usual technique another takes.
 fn usual(technique: &str) -> f64 {
-    match technique {
-        "bvh" => 1.0,
-        "adaptive-grid" | "bsp" | "grid" | "motion-bvh" | "nested-grid" | "octree" | "ploc" => 2.0,
-        "eye-buffer" | "light-buffer" | "ray-classification" | "ray-coherence" => 4.0,
-        "kd-tree" | "list" | "macro-regions" => 6.0,
-        "sbvh" => 17.0,
-        "goldsmith-salmon" => 40.0,
-        _ => 12.0,
-    }
+    /// Of one that nobody knows, which cannot be built.
+    const UNKNOWN: f64 = 1.0;
+    registry::find(technique).map_or(UNKNOWN, |entry| entry.effort)
 }
 
 impl Efforts {
@@ -100,7 +95,7 @@ mod tests {
         assert_eq!(efforts.expected(&plan("sbvh")), 0.0, "nothing is known");
         efforts.note(&plan("bvh"), 0.5);
         assert_eq!(efforts.expected(&plan("bvh")), 0.5);
-        assert_eq!(efforts.expected(&plan("sbvh")), 8.5);
+        assert_eq!(efforts.expected(&plan("sbvh")), 3.0);
         efforts.note(&plan("sbvh"), 2.0);
         assert_eq!(efforts.expected(&plan("sbvh")), 2.0, "now it is known");
         let nest = Node::nest("bvh", vec![Node::nest("sbvh", vec![Node::rest()])]);
@@ -116,8 +111,8 @@ mod tests {
     fn a_nest_that_comes_first_tells_of_its_techniques() {
         let nest = Node::nest("bvh", vec![Node::nest("sbvh", vec![Node::rest()])]);
         let mut efforts = Efforts::default();
-        efforts.note(&Plan::new(nest), 9.0);
+        efforts.note(&Plan::new(nest), 3.5);
         assert_eq!(efforts.expected(&plan("bvh")), 0.5);
-        assert_eq!(efforts.expected(&plan("sbvh")), 8.5);
+        assert_eq!(efforts.expected(&plan("sbvh")), 3.0);
     }
 }

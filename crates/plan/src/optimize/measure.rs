@@ -13,6 +13,7 @@ use super::Limits;
 use super::effort::Efforts;
 use super::ray_log::RayLog;
 use super::score::Score;
+use super::shelf::Shelf;
 use crate::build::build;
 use crate::check::check;
 use crate::error::PlanError;
@@ -79,6 +80,8 @@ struct Runner {
 struct Race<'a> {
     scene: &'a Scene,
     limits: &'a Limits<'a>,
+    /// What is built already.
+    shelf: Shelf,
     /// Few rays, and all that are timed.
     few: RayLog,
     all: RayLog,
@@ -93,20 +96,22 @@ pub(super) fn race(
     finalists: Vec<Finalist>,
     log: &RayLog,
     limits: &Limits<'_>,
-    efforts: &Efforts,
+    (efforts, shelf): (&Efforts, Shelf),
 ) -> Result<Vec<Measured>, PlanError> {
     let early = limits.earlier(LAST);
-    let mut race =
-        Race { scene, limits: &early, few: log.thinned(FIRST), all: log.thinned(RAYS[1]) };
-    let is_time_for = |finalist: &Finalist| {
-        !limits.observer.stop() && early.is_time_for(&[efforts.expected(&finalist.plan)])
+    let (few, all) = (log.thinned(FIRST), log.thinned(RAYS[1]));
+    let mut race = Race { scene, limits: &early, shelf, few, all };
+    let is_time_for = |finalist: &Finalist, shelf: &Shelf| {
+        let is_built = shelf.holds(&finalist.plan);
+        let seconds = if is_built { 0.0 } else { efforts.expected(&finalist.plan) };
+        !limits.observer.stop() && early.is_time_for(&[seconds])
     };
     // What was put together of others may not go together.
     let is_sound =
         |finalist: &Finalist| finalist.predicted.is_some() || check(&finalist.plan, scene).is_ok();
     let (mut runners, mut out) = (Vec::<Runner>::new(), Vec::new());
     for finalist in finalists {
-        if (runners.is_empty() || is_time_for(&finalist)) && is_sound(&finalist) {
+        if (runners.is_empty() || is_time_for(&finalist, &race.shelf)) && is_sound(&finalist) {
             let runner = race.enter(finalist)?;
             if runners.is_empty() {
                 race.all = log.thinned(race.rays_of_a_turn(&runner));
@@ -120,7 +125,7 @@ pub(super) fn race(
         && limits.is_time_for(&[seconds])
         && is_sound(&finalist)
     {
-        let race = Race { limits, ..race };
+        let mut race = Race { limits, ..race };
         // Against what is best so far, in turns with it.
         let mut last = vec![race.enter(finalist)?];
         let fastest = (0..runners.len())
@@ -134,11 +139,16 @@ pub(super) fn race(
 }
 
 impl Race<'_> {
-    /// Builds one and sends it a few rays.
-    fn enter(&self, finalist: Finalist) -> Result<Runner, PlanError> {
+    /// Builds one, if it is not yet, and sends it a few rays.
+    fn enter(&mut self, finalist: Finalist) -> Result<Runner, PlanError> {
         let begun = self.limits.clock.seconds();
-        let world = build(&finalist.plan, self.scene)?;
-        let build_seconds = self.limits.clock.seconds() - begun;
+        let (world, build_seconds) = match self.shelf.take(&finalist.plan) {
+            Some(built) => built,
+            None => {
+                let world = build(&finalist.plan, self.scene)?;
+                (world, self.limits.clock.seconds() - begun)
+            }
+        };
         let bytes = world.cost(&CostModel::usual().clone()).bytes;
         let times = vec![Vec::new(); self.all.sets.len()];
         let (nanos, mix, total) = (Vec::new(), 0.0, 0.0);

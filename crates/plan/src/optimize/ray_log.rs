@@ -57,6 +57,13 @@ impl RaySet {
         self.with(self.rays.chunks(BLOCK).step_by(step).flatten().copied().collect())
     }
 
+    /// About `most` of the rays, spread evenly one by one: what neighbours do is much alike.
+    #[must_use]
+    pub fn scattered(&self, most: usize) -> Self {
+        let step = self.rays.len().div_ceil(most.max(1)).max(1);
+        self.with(self.rays.iter().step_by(step).copied().collect())
+    }
+
     fn with(&self, rays: Vec<Ray>) -> Self {
         Self { name: self.name.clone(), rays, any: self.any, weight: self.weight }
     }

@@ -1,5 +1,7 @@
 //! What a plan costs: built, sent a few rays, and priced by what they did.
 
+use std::borrow::Cow;
+
 use nestray_core::cost::CostModel;
 use nestray_core::counters::Tally;
 use nestray_core::hit::Hit;
@@ -30,19 +32,37 @@ impl Score {
     }
 }
 
+/// What the rays of a set did.
+#[derive(Clone, Debug)]
+pub(super) struct Did {
+    pub(super) neighbours: bool,
+    pub(super) tally: Tally,
+    /// Rays that were sent.
+    pub(super) rays: usize,
+}
+
+/// What the rays of each set did in a plan.
+#[derive(Clone, Debug)]
+pub(super) struct Counted {
+    pub(super) sets: Vec<Did>,
+    /// Memory of the objects.
+    pub(super) bytes: u64,
+}
+
 /// Prices plans for one scene.
 #[derive(Debug)]
 pub struct Scorer<'a> {
     scene: &'a Scene,
-    log: RayLog,
-    prices: &'a Prices,
+    /// Some rays of each set, and whether they have neighbours in it.
+    sets: Vec<(RaySet, bool)>,
+    prices: Cow<'a, Prices>,
     max_memory: u64,
 }
 
 /// Rays of each set that are counted.
-const COUNTED: usize = 512;
+const COUNTED: usize = 1024;
 /// Rays after which a plan may be given up.
-const FIRST: usize = 48;
+const FIRST: usize = 64;
 /// Nanoseconds per ray above which it is: no structure worth having takes so long.
 const HOPELESS: f64 = 50_000.0;
 
@@ -50,7 +70,8 @@ impl<'a> Scorer<'a> {
     /// For the rays of a log; plans that take more than `max_memory` bytes cost infinitely much.
     #[must_use]
     pub fn new(scene: &'a Scene, log: &RayLog, prices: &'a Prices, max_memory: u64) -> Self {
-        Self { scene, log: log.thinned(COUNTED), prices, max_memory }
+        let sets = log.sets.iter().map(|set| (set.scattered(COUNTED), set.are_neighbours()));
+        Self { scene, sets: sets.collect(), prices: Cow::Borrowed(prices), max_memory }
     }
 
     /// What a plan costs. The same plan always costs the same.
@@ -58,23 +79,49 @@ impl<'a> Scorer<'a> {
     /// # Errors
     /// If it cannot be built.
     pub fn score(&self, plan: &Plan) -> Result<Score, PlanError> {
-        let world = build(plan, self.scene)?;
-        let done: Vec<Done<'_>> = self.log.sets.iter().map(|set| self.send(&world, set)).collect();
-        // What is built when rays come is there now.
-        let bytes = world.cost(CostModel::usual()).bytes;
-        if bytes > self.max_memory {
-            return Ok(Score { nanos: vec![f64::INFINITY; done.len()], bytes });
-        }
-        let per_ray = |Done { model, tally, rays }: &Done<'_>| {
-            prices::nanos(model, tally, *rays, bytes) / (*rays).max(1) as f64
-        };
-        Ok(Score { nanos: done.iter().map(per_ray).collect(), bytes })
+        Ok(self.price(&self.count(&build(plan, self.scene)?)))
     }
 
-    /// Sends the rays of a set through a world, and counts what they do.
-    fn send(&self, world: &DynObject, set: &RaySet) -> Done<'_> {
+    /// The scene.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// The prices so far.
+    pub(super) fn prices(&self) -> &Prices {
+        &self.prices
+    }
+
+    /// Goes by other prices from now on.
+    pub(super) fn set_prices(&mut self, prices: Prices) {
+        self.prices = Cow::Owned(prices);
+    }
+
+    /// Sends rays through a world, and counts what they do.
+    pub(super) fn count(&self, world: &DynObject) -> Counted {
+        let sets =
+            self.sets.iter().map(|(set, together)| self.send(world, set, *together)).collect();
+        // What is built when rays come is there now.
+        Counted { sets, bytes: world.cost(CostModel::usual()).bytes }
+    }
+
+    /// What rays cost that did this.
+    pub(super) fn price(&self, counted: &Counted) -> Score {
+        let Counted { sets, bytes } = counted;
+        if *bytes > self.max_memory {
+            return Score { nanos: vec![f64::INFINITY; sets.len()], bytes: *bytes };
+        }
+        let per_ray = |did: &Did| {
+            let model = self.prices.of(did.neighbours);
+            prices::nanos(model, &did.tally, did.rays, *bytes) / did.rays.max(1) as f64
+        };
+        Score { nanos: sets.iter().map(per_ray).collect(), bytes: *bytes }
+    }
+
+    /// Sends the rays of a set.
+    fn send(&self, world: &DynObject, set: &RaySet, neighbours: bool) -> Did {
         let mut scratch = Scratch::counting();
-        let model = self.prices.of(set);
+        let model = self.prices.of(neighbours);
         let mut done = 0;
         for rays in set.rays.chunks(FIRST) {
             for ray in rays {
@@ -90,14 +137,6 @@ impl<'a> Scorer<'a> {
                 break;
             }
         }
-        Done { model, tally: scratch.counters.total(), rays: done }
+        Did { neighbours, tally: scratch.counters.total(), rays: done }
     }
-}
-
-/// What some rays did.
-struct Done<'a> {
-    /// Their prices.
-    model: &'a CostModel,
-    tally: Tally,
-    rays: usize,
 }

@@ -59,6 +59,9 @@ fn weights_add_up_and_halves_share_no_ray() {
     let dirs = |log: &RayLog| -> Vec<Vec3A> { log.sets[0].rays.iter().map(Ray::dir).collect() };
     assert!(dirs(&a).iter().all(|dir| !dirs(&b).contains(dir)));
     assert!(a.thinned(64).sets[0].rays.len() <= 96);
+    let some = a.sets[0].scattered(50);
+    assert!(some.rays.len() <= 50 && some.rays.len() > 25, "{}", some.rays.len());
+    assert_eq!(some.rays[1].dir(), a.sets[0].rays[5].dir(), "one by one, from all over");
 }
 
 #[test]
@@ -241,7 +244,7 @@ fn nothing_is_begun_that_may_take_longer_than_there_is_time() {
         let is_it = |node: &Node| matches!(node, Node::Nest(nest) if nest.technique == technique);
         tried.iter().any(|one| one.plan.nodes().iter().any(|(_, node)| is_it(node)))
     };
-    let [short, long] = [20, 500].map(tried);
+    let [short, long] = [32, 500].map(tried);
     assert_eq!(techniques.map(|technique| uses(&short, technique)), [true, false, true]);
     assert!(uses(&long, "sbvh"));
 }

@@ -40,7 +40,8 @@ fn is_left_behind(turns: &[[f64; 2]]) -> bool {
     let scene = generate("balls", Some(1)).expect("there is one");
     let rays = vec![Ray::new(scene.bounds().center(), glam::Vec3A::X, RayKind::Camera)];
     let log = RayLog::new(vec![RaySet { name: "camera".into(), rays, any: false, weight: 1.0 }]);
-    let race = Race { scene: &scene, limits: &limits, few: log.clone(), all: log };
+    let (few, shelf) = (log.clone(), Shelf::default());
+    let race = Race { scene: &scene, limits: &limits, shelf, few, all: log };
     let runner = || {
         let plan = single("bvh", Default::default(), &scene).expect("it is sound");
         let world = build(&plan, &scene).expect("it is sound");

@@ -3,10 +3,29 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nestray_core::cost::CostModel;
+use nestray_core::counters::Tally;
 use nestray_registry as registry;
 
-use super::runs::Run;
-use crate::prices::{self, Prices};
+use super::{Prices, nanos};
+
+/// What the rays of a set took in a structure, and what they did.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    /// The scene.
+    pub(crate) scene: String,
+    /// Whether rays have neighbours; see
+    /// [`RaySet::are_neighbours`](crate::optimize::ray_log::RaySet::are_neighbours).
+    pub(crate) neighbours: bool,
+    /// Of so many rays.
+    pub(crate) tally: Tally,
+    pub(crate) rays: usize,
+    /// Of the whole structure.
+    pub(crate) bytes: u64,
+    /// Per ray.
+    pub(crate) nanos: f64,
+    /// How much it counts how far off it is.
+    pub(crate) weight: f64,
+}
 
 /// What something is the price of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,27 +38,24 @@ enum Item {
     Step(&'static str),
 }
 
-/// How much the usual prices weigh against one run: enough where nothing else is known.
-const PRIOR: f64 = 0.01;
-
-/// Prices of rays with and without neighbours.
-pub(super) fn prices(runs: &[Run]) -> Prices {
-    let usual = Prices::usual();
+/// Prices of rays with and without neighbours, near those that are usual where runs tell little: each of
+/// those weighs as much as `weight` runs.
+pub(crate) fn prices(runs: &[Run], usual: &Prices, weight: f64) -> Prices {
     let of = |neighbours: bool, usual: &CostModel| {
         let runs: Vec<&Run> = runs.iter().filter(|run| run.neighbours == neighbours).collect();
-        fitted(&runs, usual)
+        fitted(&runs, usual, weight)
     };
     Prices { neighbours: of(true, &usual.neighbours), scattered: of(false, &usual.scattered) }
 }
 
 /// The median over all runs of how far off they are by prices found without their scenes.
-pub(super) fn error(runs: &[Run]) -> f64 {
+pub(crate) fn error(runs: &[Run], usual: &Prices, weight: f64) -> f64 {
     let scenes: BTreeSet<&str> = runs.iter().map(|run| run.scene.as_str()).collect();
     let mut errors = Vec::new();
     for scene in scenes {
         let (left, others): (Vec<Run>, Vec<Run>) =
             runs.iter().cloned().partition(|run| run.scene == scene);
-        let prices = prices(&others);
+        let prices = prices(&others, usual, weight);
         errors.extend(left.iter().map(|run| (predicted(run, &prices) / run.nanos - 1.0).abs()));
     }
     errors.sort_by(f64::total_cmp);
@@ -47,14 +63,13 @@ pub(super) fn error(runs: &[Run]) -> f64 {
 }
 
 /// Nanoseconds that a ray of a run takes by some prices.
-pub(super) fn predicted(run: &Run, prices: &Prices) -> f64 {
-    let model = if run.neighbours { &prices.neighbours } else { &prices.scattered };
-    prices::nanos(model, &run.tally, run.rays, run.bytes) / run.rays.max(1) as f64
+pub(crate) fn predicted(run: &Run, prices: &Prices) -> f64 {
+    nanos(prices.of(run.neighbours), &run.tally, run.rays, run.bytes) / run.rays.max(1) as f64
 }
 
-/// Prices by which all runs are predicted as well as can be, each counting by how far off it is as a
-/// part of its time.
-fn fitted(runs: &[&Run], usual: &CostModel) -> CostModel {
+/// Prices by which all runs are predicted as well as can be: how far off each is counts as a part of its
+/// time, and by its weight.
+fn fitted(runs: &[&Run], usual: &CostModel, weight: f64) -> CostModel {
     let rows: Vec<BTreeMap<Item, f64>> = runs.iter().map(|run| row(run)).collect();
     let items: BTreeSet<Item> = rows.iter().flat_map(|row| row.keys().copied()).collect();
     let items: Vec<Item> = items.into_iter().collect();
@@ -62,22 +77,22 @@ fn fitted(runs: &[&Run], usual: &CostModel) -> CostModel {
     let units: Vec<f64> = items.iter().map(|item| item.of(usual).max(1.0)).collect();
     let count = items.len();
     let (mut matrix, mut right) = (vec![vec![0.0; count]; count], vec![0.0; count]);
-    for row in &rows {
+    for (run, row) in runs.iter().zip(&rows) {
         let values: Vec<f64> = items
             .iter()
             .zip(&units)
             .map(|(item, unit)| row.get(item).copied().unwrap_or(0.0) * unit)
             .collect();
         for (i, a) in values.iter().enumerate() {
-            right[i] += a;
+            right[i] += run.weight * a;
             for (sum, b) in matrix[i].iter_mut().zip(&values) {
-                *sum += a * b;
+                *sum += run.weight * a * b;
             }
         }
     }
     for (i, (row, item)) in matrix.iter_mut().zip(&items).enumerate() {
-        row[i] += PRIOR;
-        right[i] += PRIOR * item.of(usual) / units[i];
+        row[i] += weight;
+        right[i] += weight * item.of(usual) / units[i];
     }
     let mut model = usual.clone();
     for ((item, unit), price) in items.iter().zip(&units).zip(non_negative(&matrix, &right)) {
@@ -166,7 +181,7 @@ fn row(run: &Run) -> BTreeMap<Item, f64> {
 }
 
 impl Item {
-    /// As [`prices::test`] has it.
+    /// As [`test`](super::test) has it.
     fn test(kind: &'static str) -> Self {
         match kind {
             "instance" => Self::Transform,
@@ -202,9 +217,9 @@ impl Item {
 
 #[cfg(test)]
 mod tests {
-    use nestray_core::counters::Tally;
-
     use super::*;
+
+    const WEIGHT: f64 = 0.01;
 
     /// Runs of rays that do a little of everything, timed by prices that are known.
     fn runs(truth: &CostModel) -> Vec<Run> {
@@ -218,9 +233,10 @@ mod tests {
                 tally.tests.insert(kind, part(step, 9000.0) as u64);
             }
             let bytes = (part(0.19, 1000.0) * CostModel::NEAR as f64) as u64;
-            let nanos = prices::nanos(truth, &tally, 1000, bytes) / 1000.0;
+            let nanos = nanos(truth, &tally, 1000, bytes) / 1000.0;
             let scene = format!("scene {}", i % 4);
-            Run { scene, neighbours: i.is_multiple_of(2), tally, rays: 1000, bytes, nanos }
+            let neighbours = i.is_multiple_of(2);
+            Run { scene, neighbours, tally, rays: 1000, bytes, nanos, weight: 1.0 }
         };
         (0..2000).map(run).collect()
     }
@@ -235,7 +251,7 @@ mod tests {
         truth.primitive.insert("triangle".into(), 4.5);
         let runs = runs(&truth);
         let some = CostModel { ray: 20.0, far: 1.0, ..CostModel::default() };
-        let found = fitted(&runs.iter().collect::<Vec<_>>(), &some);
+        let found = fitted(&runs.iter().collect::<Vec<_>>(), &some, WEIGHT);
         for (price, truth) in [
             (found.ray, 30.0),
             (found.far, 1.5),
@@ -247,7 +263,8 @@ mod tests {
         ] {
             assert!((price - truth).abs() < 0.05 * truth.max(1.0), "{price} {truth}");
         }
-        assert!(error(&runs) < 0.02, "{}", error(&runs));
+        let error = error(&runs, Prices::usual(), WEIGHT);
+        assert!(error < 0.02, "{error}");
     }
 
     #[test]
@@ -262,7 +279,7 @@ mod tests {
 
     #[test]
     fn what_was_never_seen_costs_what_is_usual() {
-        assert_eq!(prices(&[]), *Prices::usual());
-        assert_eq!(error(&[]), 0.0);
+        assert_eq!(prices(&[], Prices::usual(), WEIGHT), *Prices::usual());
+        assert_eq!(error(&[], Prices::usual(), WEIGHT), 0.0);
     }
 }
