@@ -20,7 +20,7 @@ use crate::counters::{Own, Site};
 use crate::dispatch;
 use crate::hit::Hit;
 use crate::object::{Aggregate, DynObject, Object};
-use crate::ray::{Ray, Source};
+use crate::ray::{Ray, RayKind, Source};
 use crate::scratch::Scratch;
 use crate::simd::Level;
 use crate::surface::Surface;
@@ -230,6 +230,10 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
             dispatch!(scratch.level, simd =>
                 self.batch::<_, true>(simd, index, rays, out, scratch));
         }
+    }
+
+    fn parts(&self, kind: RayKind) -> bool {
+        I::LISTS && self.index.as_ref().is_some_and(|index| !index.leads(kind))
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {

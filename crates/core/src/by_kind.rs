@@ -151,6 +151,10 @@ impl<O: Object> Object for ByKind<O> {
         });
     }
 
+    fn parts(&self, kind: RayKind) -> bool {
+        self.serving(kind).parts(kind)
+    }
+
     fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {
         self.serving(ray.kind()).surface(ray, hit)
     }

@@ -9,7 +9,7 @@ use crate::beam::{Beam, Facing};
 use crate::cost::{Cost, CostModel};
 use crate::counters::Own;
 use crate::hit::Hit;
-use crate::ray::{Ray, Source};
+use crate::ray::{Ray, RayKind, Source};
 use crate::scratch::Scratch;
 use crate::surface::Surface;
 
@@ -122,6 +122,12 @@ pub trait Object: Send + Sync {
         }
     }
 
+    /// Whether neighbouring rays of a kind are shown to what is inside one by one, where other objects
+    /// would keep them together.
+    fn parts(&self, _kind: RayKind) -> bool {
+        false
+    }
+
     /// What the surface looks like at a hit that this object reported for this ray; none if
     /// the hit is not of it. Primitives answer; aggregates ask their children one after the
     /// other, so a scene that knows its geometries is faster.
@@ -227,6 +233,9 @@ macro_rules! ask_inside {
         }
         fn all_hits_each(&self, rays: &[Ray], hits: &mut [Vec<Hit>], scratch: &mut Scratch) {
             (**self).all_hits_each(rays, hits, scratch);
+        }
+        fn parts(&self, kind: RayKind) -> bool {
+            (**self).parts(kind)
         }
         fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {
             (**self).surface(ray, hit)

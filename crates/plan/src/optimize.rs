@@ -20,6 +20,7 @@ pub(crate) mod clock;
 pub(crate) mod effort;
 mod learn;
 mod pins;
+mod school;
 mod shelf;
 
 use std::time::Duration;
@@ -32,9 +33,8 @@ use self::clock::{Clock, Wall};
 use self::measure::{Finalist, Measured};
 use self::pins::Pins;
 use self::ray_log::RayLog;
-use self::score::{Score, Scorer};
-use self::shelf::Shelf;
-use self::start::Start;
+use self::school::School;
+use self::score::{Counted, Score, Scorer};
 use crate::error::PlanError;
 use crate::fingerprint::fingerprint;
 use crate::plan::Plan;
@@ -149,24 +149,31 @@ fn optimize_by(
     let allowed = start::allowed(&options.techniques)?;
     let pins = Pins::new(options.start.as_ref(), &options.pins)?;
     let (search_log, timed_log) = log.halves();
-    let mut scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
-    let (mut archive, mut shelf) = (Archive::new(&search_log), Shelf::default());
-    let mut start = Start::new(&search_log, limits, (&mut scorer, &mut archive), &mut shelf);
+    let scorer = Scorer::new(scene, &search_log, prices, options.max_memory);
+    let mut school = School::new(scorer, &search_log, limits);
+    let mut archive = Archive::new(&search_log);
     if let Some(plan) = &options.start {
-        start.given(plan)?;
+        start::given(plan, limits, &mut archive, &mut school)?;
     }
     if pins.are_none() {
-        start.singles(&allowed)?;
+        start::singles(&allowed, limits, &mut archive, &mut school)?;
     }
+    school.learn(&mut archive);
     let mut trace = Vec::new();
     let tempering = Tempering { scene, allowed: &allowed, pins: &pins, seed: options.seed };
-    tempering.run(&scorer, limits, &mut archive, &mut trace);
+    if school.is_open() {
+        let early = limits.earlier(School::AGAIN);
+        tempering.run(&school.scorer, &early, &mut archive, &mut trace);
+        school.look_at_nests(limits, &mut archive);
+        school.learn(&mut archive);
+    }
+    tempering.run(&school.scorer, limits, &mut archive, &mut trace);
     let search_seconds = limits.clock.seconds();
     let evaluations = archive.evaluations();
     let (expected, candidates) = (archive.cheapest(), archive.candidates());
     let finalists: Vec<Finalist> = archive.finalists();
     let timing = limits.timing();
-    let built = (&archive.efforts, shelf);
+    let built = (&archive.efforts, school.shelf);
     let mut measured = measure::race(scene, finalists, &timed_log, &timing, built)?;
     let winner = measure::choose(&measured);
     let mut plan = measured[winner].finalist.plan.clone();
@@ -227,15 +234,15 @@ impl<'a> Limits<'a> {
         self.clock.seconds() + seconds.iter().sum::<f64>() <= self.end
     }
 
-    /// What a plan costs, and the seconds it took to find out.
-    pub(crate) fn score(
+    /// What rays do in a plan, and the seconds it took to find out.
+    pub(crate) fn try_out(
         &self,
         scorer: &Scorer<'_>,
         plan: &Plan,
-    ) -> (Result<Score, PlanError>, f64) {
+    ) -> (Result<Counted, PlanError>, f64) {
         let begun = self.clock.seconds();
-        let score = scorer.score(plan);
-        (score, self.clock.seconds() - begun)
+        let counted = scorer.try_out(plan);
+        (counted, self.clock.seconds() - begun)
     }
 
     /// How far the search is, from 0 to 1.

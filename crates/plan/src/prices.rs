@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Prices {
-    /// Of rays with neighbours: from an eye, or towards a light.
+    /// Of rays with neighbours, from an eye or towards a light, where these are kept together.
     #[serde(with = "List")]
     pub neighbours: CostModel,
     /// Of all others.
@@ -37,7 +37,7 @@ impl Prices {
     }
 
     /// Those of rays with neighbours, or without; see
-    /// [`RaySet::are_neighbours`](crate::optimize::ray_log::RaySet::are_neighbours).
+    /// [`RaySet::stay_together`](crate::optimize::ray_log::RaySet::stay_together).
     #[must_use]
     pub fn of(&self, neighbours: bool) -> &CostModel {
         if neighbours { &self.neighbours } else { &self.scattered }

@@ -79,7 +79,7 @@ fn run(sample: &Sample, world: &DynObject, set: &RaySet, clock: &Wall) -> Option
     }
     Some(Run {
         scene: sample.name.clone(),
-        neighbours: set.are_neighbours(),
+        neighbours: set.stay_together(world),
         tally: scratch.counters.total(),
         rays: counted.rays.len(),
         // Not the usual prices: sums by those are kept, and would be those of before.

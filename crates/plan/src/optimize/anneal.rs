@@ -156,10 +156,10 @@ fn try_new(
             }
         }
     }
-    let scores: Vec<_> = order.par_iter().map(|plan| limits.score(scorer, plan)).collect();
-    for (plan, (score, seconds)) in order.into_iter().zip(scores) {
+    let all: Vec<_> = order.par_iter().map(|plan| limits.try_out(scorer, plan)).collect();
+    for (plan, (counted, seconds)) in order.into_iter().zip(all) {
         archive.efforts.note(plan, seconds);
-        archive.add(plan.clone(), score.ok(), Name::None);
+        archive.add(plan.clone(), counted.ok(), Name::None, scorer);
     }
 }
 

@@ -8,13 +8,15 @@ use super::Candidate;
 use super::effort::Efforts;
 use super::measure::Finalist;
 use super::ray_log::RayLog;
-use super::score::Score;
+use super::score::{Counted, Score, Scorer};
 use crate::plan::{ByKind, Node, Plan};
 
 /// A plan and what it costs.
 #[derive(Clone, Debug)]
 pub(crate) struct Tried {
     pub(crate) plan: Plan,
+    /// What rays do in it.
+    pub(crate) counted: Counted,
     pub(crate) score: Score,
     pub(crate) name: Name,
 }
@@ -76,10 +78,17 @@ impl Archive {
         self.by_hash.get(hash).copied()
     }
 
-    /// Takes note of a plan; its number if it can be built.
-    pub(crate) fn add(&mut self, plan: Plan, score: Option<Score>, name: Name) -> Option<usize> {
-        let number = score.map(|score| {
-            self.tried.push(Tried { plan: plan.clone(), score, name });
+    /// Takes note of a plan, and of what rays do in it if it can be built; its number then.
+    pub(crate) fn add(
+        &mut self,
+        plan: Plan,
+        counted: Option<Counted>,
+        name: Name,
+        scorer: &Scorer<'_>,
+    ) -> Option<usize> {
+        let number = counted.map(|counted| {
+            let score = scorer.price(&counted);
+            self.tried.push(Tried { plan: plan.clone(), counted, score, name });
             self.tried.len() - 1
         });
         self.by_hash.insert(plan.hash(), number);
@@ -87,13 +96,22 @@ impl Archive {
     }
 
     /// Takes note of a plan that is timed in any case.
-    pub(crate) fn add_given(&mut self, plan: Plan, score: Score) {
-        self.given = self.add(plan, Some(score), Name::None);
+    pub(crate) fn add_given(&mut self, plan: Plan, counted: Counted, scorer: &Scorer<'_>) {
+        self.given = self.add(plan, Some(counted), Name::None, scorer);
     }
 
-    /// Changes what a plan costs.
-    pub(crate) fn price_anew(&mut self, number: usize, score: Score) {
-        self.tried[number].score = score;
+    /// Prices everything again.
+    pub(crate) fn price_anew(&mut self, scorer: &Scorer<'_>) {
+        for Tried { counted, score, .. } in &mut self.tried {
+            *score = scorer.price(counted);
+        }
+    }
+
+    /// The best nameless plans of each goal.
+    pub(crate) fn best_nests(&self) -> BTreeSet<usize> {
+        let is_nest = |&number: &usize| self.tried[number].name == Name::None;
+        let best = |goal: Goal| self.best(goal).into_iter().filter(is_nest).take(BEST);
+        self.goals().into_iter().flat_map(best).collect()
     }
 
     pub(crate) fn get(&self, number: usize) -> &Tried {
@@ -157,7 +175,7 @@ impl Archive {
             numbers.extend(self.best(goal).into_iter().take(BEST));
         }
         let finalist = |number: usize| {
-            let Tried { plan, score, name } = &self.tried[number];
+            let Tried { plan, score, name, .. } = &self.tried[number];
             Finalist {
                 name: match *name {
                     Name::Single(name) | Name::Preset(name) => name.into(),

@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(lessons.sets[0].runs.len(), 2, "a list is slow");
         let truth = 1e6 / lessons.sets[0].rays.rays.len() as f64;
         let before = scorer.price(&all[0]).nanos[0];
-        scorer.set_prices(lessons.prices(scorer.prices()));
+        scorer.set_prices(lessons.prices(scorer.prices_before()));
         let after = scorer.price(&all[0]).nanos[0];
         assert!((before / truth - 1.0).abs() > 0.5, "nothing was to be learnt: {before} {truth}");
         assert!(

@@ -1,6 +1,7 @@
 //! The rays that a plan is to be fast for.
 
 use nestray_core::by_kind::Case;
+use nestray_core::object::{DynObject, Object as _};
 use nestray_core::packet::{self, Packet};
 use nestray_core::ray::{Ray, RayKind};
 
@@ -48,6 +49,13 @@ impl RaySet {
         let blocks = self.rays.chunks(BLOCK);
         let together = self.rays.chunks(BLOCK).filter(|rays| Packet::may_be(rays)).count();
         2 * together > blocks.len()
+    }
+
+    /// Whether they are kept together in a world: whether they have neighbours, and these stay so.
+    #[must_use]
+    pub fn stay_together(&self, world: &DynObject) -> bool {
+        let parts = |ray: &Ray| world.parts(ray.kind());
+        self.are_neighbours() && !self.rays.first().is_some_and(parts)
     }
 
     /// About `most` of the rays, in blocks of neighbours spread evenly.

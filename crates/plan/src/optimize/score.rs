@@ -34,19 +34,19 @@ impl Score {
 
 /// What the rays of a set did.
 #[derive(Clone, Debug)]
-pub(super) struct Did {
-    pub(super) neighbours: bool,
-    pub(super) tally: Tally,
+pub(crate) struct Did {
+    pub(crate) neighbours: bool,
+    pub(crate) tally: Tally,
     /// Rays that were sent.
-    pub(super) rays: usize,
+    pub(crate) rays: usize,
 }
 
 /// What the rays of each set did in a plan.
 #[derive(Clone, Debug)]
-pub(super) struct Counted {
-    pub(super) sets: Vec<Did>,
+pub(crate) struct Counted {
+    pub(crate) sets: Vec<Did>,
     /// Memory of the objects.
-    pub(super) bytes: u64,
+    pub(crate) bytes: u64,
 }
 
 /// Prices plans for one scene.
@@ -55,6 +55,9 @@ pub struct Scorer<'a> {
     scene: &'a Scene,
     /// Some rays of each set, and whether they have neighbours in it.
     sets: Vec<(RaySet, bool)>,
+    /// Those of the machine.
+    before: &'a Prices,
+    /// Those that are gone by.
     prices: Cow<'a, Prices>,
     max_memory: u64,
 }
@@ -71,7 +74,13 @@ impl<'a> Scorer<'a> {
     #[must_use]
     pub fn new(scene: &'a Scene, log: &RayLog, prices: &'a Prices, max_memory: u64) -> Self {
         let sets = log.sets.iter().map(|set| (set.scattered(COUNTED), set.are_neighbours()));
-        Self { scene, sets: sets.collect(), prices: Cow::Borrowed(prices), max_memory }
+        Self {
+            scene,
+            sets: sets.collect(),
+            before: prices,
+            prices: Cow::Borrowed(prices),
+            max_memory,
+        }
     }
 
     /// What a plan costs. The same plan always costs the same.
@@ -79,7 +88,15 @@ impl<'a> Scorer<'a> {
     /// # Errors
     /// If it cannot be built.
     pub fn score(&self, plan: &Plan) -> Result<Score, PlanError> {
-        Ok(self.price(&self.count(&build(plan, self.scene)?)))
+        Ok(self.price(&self.try_out(plan)?))
+    }
+
+    /// Builds a plan and counts what rays do.
+    ///
+    /// # Errors
+    /// If it cannot be built.
+    pub(super) fn try_out(&self, plan: &Plan) -> Result<Counted, PlanError> {
+        Ok(self.count(&build(plan, self.scene)?))
     }
 
     /// The scene.
@@ -87,9 +104,9 @@ impl<'a> Scorer<'a> {
         self.scene
     }
 
-    /// The prices so far.
-    pub(super) fn prices(&self) -> &Prices {
-        &self.prices
+    /// The prices that it began with.
+    pub(super) fn prices_before(&self) -> &'a Prices {
+        self.before
     }
 
     /// Goes by other prices from now on.
@@ -99,8 +116,11 @@ impl<'a> Scorer<'a> {
 
     /// Sends rays through a world, and counts what they do.
     pub(super) fn count(&self, world: &DynObject) -> Counted {
-        let sets =
-            self.sets.iter().map(|(set, together)| self.send(world, set, *together)).collect();
+        let send = |(set, neighbours): &(RaySet, bool)| {
+            let is_parted = set.rays.first().is_some_and(|ray| world.parts(ray.kind()));
+            self.send(world, set, *neighbours && !is_parted)
+        };
+        let sets = self.sets.iter().map(send).collect();
         // What is built when rays come is there now.
         Counted { sets, bytes: world.cost(CostModel::usual()).bytes }
     }

@@ -244,7 +244,7 @@ fn nothing_is_begun_that_may_take_longer_than_there_is_time() {
         let is_it = |node: &Node| matches!(node, Node::Nest(nest) if nest.technique == technique);
         tried.iter().any(|one| one.plan.nodes().iter().any(|(_, node)| is_it(node)))
     };
-    let [short, long] = [32, 500].map(tried);
+    let [short, long] = [50, 500].map(tried);
     assert_eq!(techniques.map(|technique| uses(&short, technique)), [true, false, true]);
     assert!(uses(&long, "sbvh"));
 }

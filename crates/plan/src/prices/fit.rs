@@ -14,7 +14,7 @@ pub(crate) struct Run {
     /// The scene.
     pub(crate) scene: String,
     /// Whether rays have neighbours; see
-    /// [`RaySet::are_neighbours`](crate::optimize::ray_log::RaySet::are_neighbours).
+    /// [`RaySet::stay_together`](crate::optimize::ray_log::RaySet::stay_together).
     pub(crate) neighbours: bool,
     /// Of so many rays.
     pub(crate) tally: Tally,
