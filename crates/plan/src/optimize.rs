@@ -66,14 +66,14 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Thirty seconds, ten million rays, no limit on memory.
+    /// Four seconds, ten million rays, no limit on memory.
     fn default() -> Self {
         Self {
             techniques: Vec::new(),
             start: None,
             pins: Vec::new(),
             evaluations: None,
-            time: Some(Duration::from_secs(30)),
+            time: Some(Duration::from_secs(4)),
             seed: 0,
             rays_expected: 1e7,
             max_memory: u64::MAX,

@@ -20,9 +20,9 @@ pub(crate) struct OptimizeArgs {
     /// Where the plan goes, .json; `-` for standard output.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// How long to search, as in 30s or 2m, or how many plans to try, as in 2000evals; timing the
-    /// best comes on top.
-    #[arg(long, default_value = "30s", value_parser = budget)]
+    /// How long to search, as in 30s or 2m, or how many plans to try, as in 2000evals; timing
+    /// takes about as long again.
+    #[arg(long, default_value = "4s", value_parser = budget)]
     pub(crate) budget: Budget,
     /// Techniques that plans may use; all if none is named.
     #[arg(long, value_name = "TECHNIQUE,…", value_delimiter = ',')]
