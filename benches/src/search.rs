@@ -136,24 +136,6 @@ impl Found {
     }
 }
 
-/// How alike two orders are.
-fn rank_correlation(pairs: &[[f64; 2]]) -> f64 {
-    let ranks = |which: usize| -> Vec<f64> {
-        let of = |pair: &[f64; 2]| {
-            let below = pairs.iter().filter(|other| other[which] < pair[which]).count();
-            let equal = pairs.iter().filter(|other| other[which] == pair[which]).count();
-            below as f64 + 0.5 * (equal as f64 - 1.0)
-        };
-        pairs.iter().map(of).collect()
-    };
-    let (a, b) = (ranks(0), ranks(1));
-    let mean = 0.5 * (pairs.len() as f64 - 1.0);
-    let dot = |a: &[f64], b: &[f64]| -> f64 {
-        a.iter().zip(b).map(|(a, b)| (a - mean) * (b - mean)).sum()
-    };
-    dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt()
-}
-
 fn median(mut of: Vec<f64>) -> f64 {
     of.retain(|x| x.is_finite());
     of.sort_by(f64::total_cmp);
@@ -186,7 +168,8 @@ fn row(found: &Found) -> Option<Row> {
     let chosen = pairs.iter().min_by(|a, b| a[0].total_cmp(&b[0]))?[1];
     let errors = pairs.iter().map(|[expected, taken]| (expected / taken - 1.0).abs()).collect();
     let (gain, regret) = (single.total / winner.total, chosen / best);
-    let (spearman, error) = (rank_correlation(&pairs), median(errors));
+    let spearman = found.report["rank_correlation"].as_f64().unwrap_or(f64::NAN);
+    let error = median(errors);
     let singles = timed.iter().filter(|one| one.single).count();
     let mut text =
         format!("| {} | {} | {} of {singles} | {gain:.2} |", found.scene, winner.name, single.name);
@@ -271,24 +254,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn orders_that_are_the_same_or_the_other_way_round() {
-        let up = [[1.0, 10.0], [2.0, 20.0], [3.0, 90.0]];
-        assert!((rank_correlation(&up) - 1.0).abs() < 1e-12);
-        let down = [[1.0, 30.0], [2.0, 20.0], [3.0, 1.0]];
-        assert!((rank_correlation(&down) + 1.0).abs() < 1e-12);
-    }
-
-    #[test]
     fn a_row_tells_gains_and_errors() {
         let one = |name: &str, single: bool, expected: f64, nanos: f64| {
             serde_json::json!({ "name": name, "single": single, "expected_nanos": [expected],
                 "measured_nanos": [nanos], "measured_mix": nanos, "total": nanos })
         };
-        let report = serde_json::json!({ "rays": [{ "kind": "camera", "weight": 1.0 }],
+        let report = serde_json::json!({ "rank_correlation": 0.8, "rays": [{ "kind": "camera", "weight": 1.0 }],
             "finalists": [one("nest", false, 120.0, 100.0), one("bvh", true, 150.0, 200.0),
                 one("grid", true, 110.0, 110.0), one("list", true, 900.0, 800.0)] });
         let row = row(&Found { scene: "any".into(), report }).expect("there is a winner");
         assert!((row.gain - 1.1).abs() < 1e-9 && (row.regret - 1.1).abs() < 1e-9);
+        assert_eq!(row.spearman, 0.8);
         assert!(
             row.text.starts_with("| any | nest | grid of 3 | 1.10 | 1.10 | – |"),
             "{}",

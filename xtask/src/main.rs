@@ -30,28 +30,38 @@ const fn cargo(args: &'static [&'static str]) -> Step {
     Step { env: &[], args, nightly: false }
 }
 
+/// What makes the standard library anew.
+const MAKE_STD: &str = "-Zbuild-std";
+
 /// Tests that `AddressSanitizer` watches.
-const fn guarded(args: &'static [&'static str]) -> Step {
-    const ENV: &[(&str, &str)] = &[
-        ("RUSTFLAGS", "-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer"),
-        ("CARGO_TARGET_DIR", "target/address-sanitizer"),
-    ];
-    Step { env: ENV, args, nightly: true }
+macro_rules! guarded {
+    ($($arg:literal),+) => {
+        Step {
+            env: &[
+                ("RUSTFLAGS", "-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer"),
+                ("CARGO_TARGET_DIR", "target/address-sanitizer"),
+            ],
+            args: &["test", "--release", "--target", "host-tuple", $($arg),+],
+            nightly: true,
+        }
+    };
 }
 
 /// Tests that `ThreadSanitizer` watches. The standard library is made anew: as it comes it has no marks,
 /// and whatever it does to make threads wait for each other would not be seen.
-const fn watched(args: &'static [&'static str]) -> Step {
-    const ENV: &[(&str, &str)] = &[
-        ("RUSTFLAGS", "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer"),
-        ("CARGO_TARGET_DIR", "target/thread-sanitizer"),
-        ("NESTRAY_BUILDS", "5"),
-    ];
-    Step { env: ENV, args, nightly: true }
+macro_rules! watched {
+    ($($arg:literal),+) => {
+        Step {
+            env: &[
+                ("RUSTFLAGS", "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer"),
+                ("CARGO_TARGET_DIR", "target/thread-sanitizer"),
+                ("NESTRAY_BUILDS", "5"),
+            ],
+            args: &["test", MAKE_STD, "--release", "--target", "host-tuple", $($arg),+],
+            nightly: true,
+        }
+    };
 }
-
-/// What makes the standard library anew.
-const MAKE_STD: &str = "-Zbuild-std";
 
 /// A test across crates, with more of everything than usual, that says what it did.
 macro_rules! long {
@@ -102,6 +112,7 @@ const CHORES: &[Chore] = &[
             long!("lazy", "NESTRAY_BUILDS" = "2000"),
             long!("expected", "NESTRAY_LINES" = "200000"),
             long!("theorems", "NESTRAY_LINES" = "10000000"),
+            long!("optimum", "NESTRAY_SEEDS" = "40"),
             long!("published", "NESTRAY_RAYS" = "40000"),
             Step {
                 env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
@@ -109,55 +120,19 @@ const CHORES: &[Chore] = &[
                 nightly: false,
             },
             // Where the unsafe code of the library is.
-            guarded(&[
-                "test",
-                "--release",
-                "--target",
-                "host-tuple",
+            guarded!(
                 "-p",
                 "nestray-core",
                 "-p",
                 "nestray-shapes",
                 "-p",
                 "nestray-techniques",
-                "--lib",
-            ]),
+                "--lib"
+            ),
             // Where threads share what is made while rays fly, and where they build and draw together.
-            watched(&[
-                "test",
-                MAKE_STD,
-                "--release",
-                "--target",
-                "host-tuple",
-                "-p",
-                "nestray-core",
-                "-p",
-                "nestray-techniques",
-                "--lib",
-            ]),
-            watched(&[
-                "test",
-                MAKE_STD,
-                "--release",
-                "--target",
-                "host-tuple",
-                "-p",
-                "nestray-plan",
-                "-p",
-                "nestray-render",
-                "--lib",
-            ]),
-            watched(&[
-                "test",
-                MAKE_STD,
-                "--release",
-                "--target",
-                "host-tuple",
-                "-p",
-                "nestray-tests",
-                "--test",
-                "lazy",
-            ]),
+            watched!("-p", "nestray-core", "-p", "nestray-techniques", "--lib"),
+            watched!("-p", "nestray-plan", "-p", "nestray-render", "--lib"),
+            watched!("-p", "nestray-tests", "--test", "lazy"),
         ],
         own: None,
     },

@@ -84,6 +84,11 @@ fn spearman(finalists: &[Measured], log: &RayLog) -> Option<f64> {
         .filter_map(|one| Some([one.finalist.predicted.as_ref()?.mix(log), one.mix]))
         .filter(|[expected, _]| expected.is_finite())
         .collect();
+    rank_correlation(&pairs)
+}
+
+/// How alike two orders are; none of less than three, or where all are equal.
+fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     if pairs.len() < 3 {
         return None;
     }
@@ -149,5 +154,21 @@ pub(super) fn json(found: &Optimized, log: &RayLog, options: &Options, nest: &Ne
     json!({ "moves": moves, "exchanges": exchanges, "candidates": candidates, "nest": nest.part,
         "spent": nest.spent, "seed": options.seed, "evaluations": found.evaluations,
         "search_seconds": found.search_seconds, "rays_expected": options.rays_expected,
-        "rays": sets, "finalists": finalists, "trace": trace })
+        "rank_correlation": spearman(&found.finalists, log), "rays": sets, "finalists": finalists,
+        "trace": trace })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_that_are_the_same_or_the_other_way_round() {
+        let up = rank_correlation(&[[1.0, 10.0], [2.0, 20.0], [3.0, 90.0]]).expect("there are three");
+        assert!((up - 1.0).abs() < 1e-12);
+        let down = rank_correlation(&[[1.0, 30.0], [2.0, 20.0], [3.0, 1.0]]).expect("there are three");
+        assert!((down + 1.0).abs() < 1e-12);
+        assert_eq!(rank_correlation(&[[1.0, 2.0]; 3]), None, "all are equal");
+        assert_eq!(rank_correlation(&[[1.0, 2.0], [2.0, 3.0]]), None, "there are two");
+    }
 }

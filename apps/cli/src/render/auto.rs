@@ -34,7 +34,7 @@ const PART: f64 = 0.015;
 /// The shortest search that finds anything, in seconds, and in builds of the default plan: some
 /// techniques take thirty times as long to build, and none is broken off.
 const LEAST: f64 = 0.3;
-const BUILDS: f64 = 150.0;
+const BUILDS: f64 = 100.0;
 /// What is tried where there is no time for a search; so many times as long as the default it may
 /// take to build, and that part of the predicted time.
 const QUALITY: &str = "sbvh";

@@ -257,3 +257,15 @@ fn settings_next_to_the_usual_are_in_range() {
     let nowhere = Emitter::Point([f32::NAN, 0.0, 0.0]);
     assert!(LightBuffer { lights: vec![nowhere], ..Default::default() }.check().is_err());
 }
+
+#[test]
+fn only_rays_that_lists_serve_are_shown_one_by_one() {
+    let lights = LightBuffer { lights: LAMPS.to_vec(), ..LightBuffer::default() };
+    let light_buffer = Accel::new(lights, objects(1));
+    let shadow = RayKind::Shadow { light: 0 };
+    assert!(light_buffer.parts(shadow) && !light_buffer.parts(RayKind::Camera));
+    let tree = Accel::new(crate::bvh::Bvh::default(), objects(1));
+    assert!(!tree.parts(shadow) && !tree.parts(RayKind::Camera));
+    let both = nestray_core::by_kind::ByKind::new(vec![], Arc::new(light_buffer) as DynObject);
+    assert!(both.parts(shadow), "as what serves them");
+}
