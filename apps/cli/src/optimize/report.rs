@@ -164,9 +164,11 @@ mod tests {
 
     #[test]
     fn orders_that_are_the_same_or_the_other_way_round() {
-        let up = rank_correlation(&[[1.0, 10.0], [2.0, 20.0], [3.0, 90.0]]).expect("there are three");
+        let up =
+            rank_correlation(&[[1.0, 10.0], [2.0, 20.0], [3.0, 90.0]]).expect("there are three");
         assert!((up - 1.0).abs() < 1e-12);
-        let down = rank_correlation(&[[1.0, 30.0], [2.0, 20.0], [3.0, 1.0]]).expect("there are three");
+        let down =
+            rank_correlation(&[[1.0, 30.0], [2.0, 20.0], [3.0, 1.0]]).expect("there are three");
         assert!((down + 1.0).abs() < 1e-12);
         assert_eq!(rank_correlation(&[[1.0, 2.0]; 3]), None, "all are equal");
         assert_eq!(rank_correlation(&[[1.0, 2.0], [2.0, 3.0]]), None, "there are two");

@@ -64,9 +64,16 @@ const STILL_FAR: f64 = 1.4;
 /// the same processor and memory come and go.
 const TURNS: usize = 3;
 /// Part of the time that is left for what is put together of the fastest for each kind.
-const LAST: f64 = 0.25;
+const LAST: f64 = 0.1;
 /// How much faster a nest must be than something simpler.
 const SIMPLER: f64 = 1.02;
+
+/// One that may start.
+struct Built {
+    finalist: Finalist,
+    world: DynObject,
+    build_seconds: f64,
+}
 
 /// One that is still in the race.
 struct Runner {
@@ -120,14 +127,13 @@ pub(super) fn race(
         }
     }
     race.run(&mut runners);
-    if let Some((finalist, seconds)) = joined(&runners, log)
+    if let Some(joined) = joined(&runners, log)
         && !limits.observer.stop()
-        && limits.is_time_for(&[seconds])
-        && is_sound(&finalist)
+        && is_sound(&joined.finalist)
     {
-        let mut race = Race { limits, ..race };
+        let race = Race { limits, ..race };
         // Against what is best so far, in turns with it.
-        let mut last = vec![race.enter(finalist)?];
+        let mut last = vec![race.start(joined)];
         let fastest = (0..runners.len())
             .min_by(|&a, &b| runners[a].measured.total.total_cmp(&runners[b].measured.total));
         last.extend(fastest.map(|fastest| runners.swap_remove(fastest)));
@@ -149,13 +155,18 @@ impl Race<'_> {
                 (world, self.limits.clock.seconds() - begun)
             }
         };
+        Ok(self.start(Built { finalist, world, build_seconds }))
+    }
+
+    /// Sends one a few rays.
+    fn start(&self, Built { finalist, world, build_seconds }: Built) -> Runner {
         let bytes = world.cost(&CostModel::usual().clone()).bytes;
         let times = vec![Vec::new(); self.all.sets.len()];
         let (nanos, mix, total) = (Vec::new(), 0.0, 0.0);
         let measured = Measured { finalist, nanos, mix, total, build_seconds, bytes, rounds: 1 };
         let mut runner = Runner { world, measured, times };
         self.warm(&mut runner, &self.few);
-        Ok(runner)
+        runner
     }
 
     /// So many rays of each set that there is time for many turns, judged by the first to run.
