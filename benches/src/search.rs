@@ -38,7 +38,7 @@ const BUILTIN: &[Scene] = &[
 /// Those of the comparison with other libraries that are searched, too.
 const SHARED: [&str; 6] = ["bunny", "dragon", "sponza", "tree", "forest", "stadium"];
 /// How long each search may take; timing as long again.
-const BUDGET: &str = "12s";
+const BUDGET: &str = "10s";
 
 /// What a search of one scene found.
 struct Found {

@@ -233,7 +233,7 @@ impl<I: Index, C: Children> Object for Accel<I, C> {
     }
 
     fn parts(&self, kind: RayKind) -> bool {
-        I::LISTS && self.index.as_ref().is_some_and(|index| !index.leads(kind))
+        I::LEADS && self.index.as_ref().is_some_and(|index| !index.leads(kind))
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> Option<Surface> {
