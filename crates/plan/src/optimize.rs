@@ -175,7 +175,7 @@ fn optimize_by(
     let timing = limits.timing();
     let built = (&archive.efforts, school.shelf);
     let mut measured = measure::race(scene, finalists, &timed_log, &timing, built)?;
-    let winner = measure::choose(&measured);
+    let winner = measure::choice::choose(&measured);
     let mut plan = measured[winner].finalist.plan.clone();
     plan.scene = Some(fingerprint(scene));
     measured[..].swap(0, winner);

@@ -1,5 +1,6 @@
 //! Timing the plans that a search ends with: what is fastest then is taken.
 
+pub(super) mod choice;
 mod joined;
 pub(crate) mod shots;
 
@@ -17,7 +18,7 @@ use super::shelf::Shelf;
 use crate::build::build;
 use crate::check::check;
 use crate::error::PlanError;
-use crate::plan::{Node, Plan};
+use crate::plan::Plan;
 
 /// A plan to be timed.
 #[derive(Clone, Debug)]
@@ -279,26 +280,6 @@ impl Race<'_> {
 fn fastest(runners: &[Runner]) -> Option<usize> {
     let mix = |i: usize| runners[i].measured.mix;
     (0..runners.len()).min_by(|&a, &b| mix(a).total_cmp(&mix(b)))
-}
-
-/// The number of the fastest, or of something simpler that is hardly slower.
-pub(super) fn choose(all: &[Measured]) -> usize {
-    let best = all.iter().map(|one| one.total).fold(f64::INFINITY, f64::min);
-    let good = (0..all.len()).filter(|&i| all[i].total <= best * SIMPLER);
-    let order = |&i: &usize| (!all[i].finalist.is_single, nodes(&all[i].finalist.plan));
-    let chosen =
-        good.min_by(|a, b| order(a).cmp(&order(b)).then(all[*a].total.total_cmp(&all[*b].total)));
-    chosen.expect("at least one was timed")
-}
-
-/// How many nodes a plan has.
-fn nodes(plan: &Plan) -> usize {
-    fn count(node: &Node) -> usize {
-        let mut nodes = 1;
-        node.visit_children(|_, child| nodes += count(child));
-        nodes
-    }
-    count(&plan.root) + plan.shared.values().map(count).sum::<usize>()
 }
 
 #[cfg(test)]

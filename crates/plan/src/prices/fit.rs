@@ -261,7 +261,7 @@ mod tests {
             (found.step("list"), 0.0),
             (found.primitive("triangle"), 4.5),
         ] {
-            assert!((price - truth).abs() < 0.05 * truth.max(1.0), "{price} {truth}");
+            assert!((price - truth).abs() < 0.05 * truth.max(2.0), "{price} {truth}");
         }
         let error = error(&runs, Prices::usual(), WEIGHT);
         assert!(error < 0.02, "{error}");
