@@ -112,7 +112,7 @@ const CHORES: &[Chore] = &[
             long!("lazy", "NESTRAY_BUILDS" = "2000"),
             long!("expected", "NESTRAY_LINES" = "200000"),
             long!("theorems", "NESTRAY_LINES" = "10000000"),
-            long!("optimum", "NESTRAY_SEEDS" = "40"),
+            long!("optimum", "NESTRAY_SEEDS" = "20"),
             long!("published", "NESTRAY_RAYS" = "40000"),
             Step {
                 env: &[("RUSTFLAGS", "--cfg loom"), ("CARGO_TARGET_DIR", "target/loom")],
