@@ -114,12 +114,9 @@ pub(super) fn race(
         let seconds = if is_built { 0.0 } else { efforts.expected(&finalist.plan) };
         !limits.observer.stop() && early.is_time_for(&[seconds])
     };
-    // What was put together of others may not go together.
-    let is_sound =
-        |finalist: &Finalist| finalist.predicted.is_some() || check(&finalist.plan, scene).is_ok();
     let (mut runners, mut out) = (Vec::<Runner>::new(), Vec::new());
     for finalist in finalists {
-        if (runners.is_empty() || is_time_for(&finalist, &race.shelf)) && is_sound(&finalist) {
+        if runners.is_empty() || is_time_for(&finalist, &race.shelf) {
             let runner = race.enter(finalist)?;
             if runners.is_empty() {
                 race.all = log.thinned(race.rays_of_a_turn(&runner));
@@ -130,7 +127,8 @@ pub(super) fn race(
     race.run(&mut runners);
     if let Some(joined) = joined(&runners, log)
         && !limits.observer.stop()
-        && is_sound(&joined.finalist)
+        // What was made apart may not go together.
+        && check(&joined.finalist.plan, scene).is_ok()
     {
         let race = Race { limits, ..race };
         // Against what is best so far, in turns with it.

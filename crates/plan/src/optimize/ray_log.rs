@@ -54,8 +54,12 @@ impl RaySet {
     /// Whether they are kept together in a world: whether they have neighbours, and these stay so.
     #[must_use]
     pub fn stay_together(&self, world: &DynObject) -> bool {
-        let parts = |ray: &Ray| world.parts(ray.kind());
-        self.are_neighbours() && !self.rays.first().is_some_and(parts)
+        self.are_neighbours() && !self.are_parted(world)
+    }
+
+    /// Whether a world shows neighbours one by one to what is inside.
+    pub(super) fn are_parted(&self, world: &DynObject) -> bool {
+        self.rays.first().is_some_and(|ray| world.parts(ray.kind()))
     }
 
     /// About `most` of the rays, in blocks of neighbours spread evenly.

@@ -117,8 +117,7 @@ impl<'a> Scorer<'a> {
     /// Sends rays through a world, and counts what they do.
     pub(super) fn count(&self, world: &DynObject) -> Counted {
         let send = |(set, neighbours): &(RaySet, bool)| {
-            let is_parted = set.rays.first().is_some_and(|ray| world.parts(ray.kind()));
-            self.send(world, set, *neighbours && !is_parted)
+            self.send(world, set, *neighbours && !set.are_parted(world))
         };
         let sets = self.sets.iter().map(send).collect();
         // What is built when rays come is there now.

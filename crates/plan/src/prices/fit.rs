@@ -39,23 +39,23 @@ enum Item {
 }
 
 /// Prices of rays with and without neighbours, near those that are usual where runs tell little: each of
-/// those weighs as much as `weight` runs.
-pub(crate) fn prices(runs: &[Run], usual: &Prices, weight: f64) -> Prices {
+/// those weighs as much as `prior` runs.
+pub(crate) fn prices(runs: &[Run], usual: &Prices, prior: f64) -> Prices {
     let of = |neighbours: bool, usual: &CostModel| {
         let runs: Vec<&Run> = runs.iter().filter(|run| run.neighbours == neighbours).collect();
-        fitted(&runs, usual, weight)
+        fitted(&runs, usual, prior)
     };
     Prices { neighbours: of(true, &usual.neighbours), scattered: of(false, &usual.scattered) }
 }
 
 /// The median over all runs of how far off they are by prices found without their scenes.
-pub(crate) fn error(runs: &[Run], usual: &Prices, weight: f64) -> f64 {
+pub(crate) fn error(runs: &[Run], usual: &Prices, prior: f64) -> f64 {
     let scenes: BTreeSet<&str> = runs.iter().map(|run| run.scene.as_str()).collect();
     let mut errors = Vec::new();
     for scene in scenes {
         let (left, others): (Vec<Run>, Vec<Run>) =
             runs.iter().cloned().partition(|run| run.scene == scene);
-        let prices = prices(&others, usual, weight);
+        let prices = prices(&others, usual, prior);
         errors.extend(left.iter().map(|run| (predicted(run, &prices) / run.nanos - 1.0).abs()));
     }
     errors.sort_by(f64::total_cmp);
@@ -63,13 +63,13 @@ pub(crate) fn error(runs: &[Run], usual: &Prices, weight: f64) -> f64 {
 }
 
 /// Nanoseconds that a ray of a run takes by some prices.
-pub(crate) fn predicted(run: &Run, prices: &Prices) -> f64 {
+fn predicted(run: &Run, prices: &Prices) -> f64 {
     nanos(prices.of(run.neighbours), &run.tally, run.rays, run.bytes) / run.rays.max(1) as f64
 }
 
 /// Prices by which all runs are predicted as well as can be: how far off each is counts as a part of its
 /// time, and by its weight.
-fn fitted(runs: &[&Run], usual: &CostModel, weight: f64) -> CostModel {
+fn fitted(runs: &[&Run], usual: &CostModel, prior: f64) -> CostModel {
     let rows: Vec<BTreeMap<Item, f64>> = runs.iter().map(|run| row(run)).collect();
     let items: BTreeSet<Item> = rows.iter().flat_map(|row| row.keys().copied()).collect();
     let items: Vec<Item> = items.into_iter().collect();
@@ -91,8 +91,8 @@ fn fitted(runs: &[&Run], usual: &CostModel, weight: f64) -> CostModel {
         }
     }
     for (i, (row, item)) in matrix.iter_mut().zip(&items).enumerate() {
-        row[i] += weight;
-        right[i] += weight * item.of(usual) / units[i];
+        row[i] += prior;
+        right[i] += prior * item.of(usual) / units[i];
     }
     let mut model = usual.clone();
     for ((item, unit), price) in items.iter().zip(&units).zip(non_negative(&matrix, &right)) {
@@ -219,7 +219,7 @@ impl Item {
 mod tests {
     use super::*;
 
-    const WEIGHT: f64 = 0.01;
+    const PRIOR: f64 = 0.01;
 
     /// Runs of rays that do a little of everything, timed by prices that are known.
     fn runs(truth: &CostModel) -> Vec<Run> {
@@ -251,7 +251,7 @@ mod tests {
         truth.primitive.insert("triangle".into(), 4.5);
         let runs = runs(&truth);
         let some = CostModel { ray: 20.0, far: 1.0, ..CostModel::default() };
-        let found = fitted(&runs.iter().collect::<Vec<_>>(), &some, WEIGHT);
+        let found = fitted(&runs.iter().collect::<Vec<_>>(), &some, PRIOR);
         for (price, truth) in [
             (found.ray, 30.0),
             (found.far, 1.5),
@@ -263,7 +263,7 @@ mod tests {
         ] {
             assert!((price - truth).abs() < 0.05 * truth.max(2.0), "{price} {truth}");
         }
-        let error = error(&runs, Prices::usual(), WEIGHT);
+        let error = error(&runs, Prices::usual(), PRIOR);
         assert!(error < 0.02, "{error}");
     }
 
@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn what_was_never_seen_costs_what_is_usual() {
-        assert_eq!(prices(&[], Prices::usual(), WEIGHT), *Prices::usual());
-        assert_eq!(error(&[], Prices::usual(), WEIGHT), 0.0);
+        assert_eq!(prices(&[], Prices::usual(), PRIOR), *Prices::usual());
+        assert_eq!(error(&[], Prices::usual(), PRIOR), 0.0);
     }
 }
